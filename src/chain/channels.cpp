@@ -58,7 +58,7 @@ void keep_channels(Ldi &ldi, const std::string &list) {
     for (std::size_t k = 0; k < keep.size(); ++k)
         for (std::size_t other = 0; keep[k] && is_in_matte(ldi.channels[k]) && other < keep.size(); ++other)
             if (is_in_matte(ldi.channels[other]) && ldi.channels[other].matte == ldi.channels[k].matte)
-                keep[other] = true; // pairs are ranked among all of a matte
+                keep[other] = true; // all pairs of a matte are ranked together
     std::size_t kept = 0;
     for (std::size_t k = 0; k < keep.size(); ++k) {
         if (!keep[k]) continue;

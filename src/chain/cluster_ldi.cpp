@@ -23,7 +23,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
     require_same_subpixels(first.camera, first.name, other.camera, other.name);
     const int width = first.ldi.windows.display_width();
     const auto focal = focal_length_px(first.camera, width), others = focal_length_px(other.camera, width);
-    constexpr double rounding = 1e-3; // relative, of values that other programs have written
+    constexpr double rounding = 1e-3; // relative, for values that other programs have written
     if (focal && others && std::abs(*others / *focal - 1) > rounding)
         throw Error(
             fmt::format("{}: its focal length is {:g} pixels, that of {} is {:g}; merge pictures of one "
@@ -31,7 +31,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
                         other.name, *others, first.name, *focal));
 }
 
-// The samples of the pictures, which are not empty, by depth (deep/merge.h).
+// The samples of the pictures, at least one, merged by depth (deep/merge.h).
 OpenedLdi merged(std::vector<OpenedLdi> parts) {
     OpenedLdi first = std::move(parts.front());
     if (parts.size() == 1) return first;
@@ -52,11 +52,12 @@ Camera camera_for(const OpenedLdi &in, const ClusterRequest &request) {
     return camera;
 }
 
-// Without a scale: by inverse depth alone.
+// The options if no scale is known: inverse depth alone decides.
 ClusterOptions options_for(const Camera &camera, const Windows &windows, const ClusterRequest &request,
                            bool &has_scale) {
     ClusterOptions by{.layers = request.layers};
-    // `layers` alone needs no lens, as inverse depths are compared without a scale, and a `tolerance` of 0 none either.
+    // `layers` alone needs no lens, because inverse depths are compared without a scale. A `tolerance` of 0 needs none
+    // either.
     const double tolerance = request.tolerance.value_or(0.25);
     const bool must_know = tolerance > 0 && (request.tolerance || request.layers == 0);
     const auto scale = perceptive_scale(camera, windows, must_know);
@@ -106,7 +107,7 @@ ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, cons
 
 ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,
                          Progress &progress, const Tell &tell) {
-    if (ldis.size() == 1 && !request.beauty) // which is not copied
+    if (ldis.size() == 1 && !request.beauty) // because the beauty is not copied
         return clustered(*ldis[0], camera_for(*ldis[0], request), request, progress, tell);
     std::vector<OpenedLdi> parts;
     for (const OpenedLdi *ldi : ldis) parts.push_back(*ldi);

@@ -19,13 +19,13 @@ namespace {
 
 bool is_pipe(const std::string &path) { return path == "-" || path == display_name("-"); }
 
-// The configuration; none where $OCIO names one that cannot be read, and nothing but a guess needs it.
+// The configuration; empty if $OCIO names one that cannot be read and it is needed for a guess only.
 std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOptions &options) {
     try {
         return ColourConfig(options.config);
     } catch (const Error &error) {
         if (!options.config.empty() || !options.input_space.empty()) throw;
-        static std::once_flag said; // of all files
+        static std::once_flag said; // once for all files
         std::call_once(said, [&] {
             tell({.kind = NoticeKind::no_colorconfig, .values = {error.what()}, .parameter = "colorconfig"});
         });
@@ -34,8 +34,8 @@ std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOpt
 }
 
 struct LinearColours {
-    Imf::Header header;                            // says in which space they are
-    std::optional<ColourTransform> transform = {}; // to there; empty: there is nothing to do
+    Imf::Header header;                            // states their colour space
+    std::optional<ColourTransform> transform = {}; // into that space; empty: nothing to do
 };
 
 LinearColours linear_colours(const Tell &tell, const ColourOptions &options, const std::string &path,
@@ -62,7 +62,7 @@ LinearColours linear_colours(const Tell &tell, const ColourOptions &options, con
     tell({NoticeKind::colour_space, display_name(path), {from}});
     const auto own = config.chromaticities_of(from);
     const std::string to = own ? from : config.scene_linear();
-    // A file without the attribute is of Rec.709, by the definition of OpenEXR, and need not say so.
+    // OpenEXR defines that a file without the attribute has Rec.709 primaries, so Rec.709 need not be stated.
     const bool silent =
         own && !asked && !says && config.linear_space({}) == from && config.scene_linear() == from;
     LinearColours result{silent ? header : with_space(config, header, to)};
@@ -70,7 +70,7 @@ LinearColours linear_colours(const Tell &tell, const ColourOptions &options, con
     return result;
 }
 
-// The space of pixels that to_linear() has seen, or that have never been in a file.
+// The space of pixels that went through to_linear(), or that have never been in a file.
 std::string space_of(const ColourConfig &config, const Imf::Header &header) {
     if (!Imf::hasChromaticities(header)) return config.scene_linear();
     return config.linear_space(Imf::chromaticities(header)).value_or(config.scene_linear());

@@ -1,4 +1,4 @@
-// The colours of files: linear while the chain works on them, and of another space or a display when they are written.
+// The colours of files: linear while the chain works on them, in another space or for a display when they are written.
 #pragma once
 
 #include "../deep/ldi.h"
@@ -21,10 +21,10 @@ struct ColourOptions {
                 view = {}; // `output_colorspace`; `display`, `view_transform`
 };
 
-// Makes the colours of a file linear, and returns its header, which then says of which space they are
-// (stated_space.h). Their space in the file is `colorspace`, else what its header states; else files of these tools are
-// scene-linear, and the file rules of the configuration name the space of other files. Colours in a linear space with
-// known chromaticities stay as they are; all others become scene-linear.
+// Makes the colours of a file linear, and returns its header, which then states their space (stated_space.h). Their
+// space in the file is `colorspace`; if this is empty, the space that the header states; otherwise files of these tools
+// are scene-linear, and the file rules of the configuration name the space of other files. Colours in a linear space
+// with known chromaticities stay as they are; all others become scene-linear.
 Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Ldi &ldi);
 Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
@@ -32,17 +32,18 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
 Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Image &image);
 
-// Whether to_linear() leaves the colours of such a file as they are.
+// Whether to_linear() leaves the colours of such a file unchanged.
 bool is_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                const Imf::Header &header);
 
-// From linear colours, of the space that `metadata` says, to those of PNG: see write_picture().
+// The transform from linear colours, in the space that `metadata` states, to those of a PNG; see write_picture().
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata);
 
-// Writes a picture of linear colours, in the space of the chromaticities of `metadata`, else scene-linear: as OpenEXR in
-// `output_colorspace` (default: in its own space), which chromaticities then say; as PNG, JPEG, TIFF and the like in `output_colorspace`, else through `display` and `view_transform` (default: those of the
-// configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an OpenEXR file, and
-// for a compression or tiles with any other. Returns what write_flat_exr returns.
+// Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
+// files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities. PNG, JPEG,
+// TIFF and the like are written in `output_colorspace`, or else through `display` and `view_transform` (default: those
+// of the configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an
+// OpenEXR file, and for a compression or tiles with any other. Returns what write_flat_exr returns.
 std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression = {}, int tiles = 0);

@@ -20,7 +20,7 @@ void check_count(std::size_t denoised, std::size_t views) {
             denoised, views));
 }
 
-// Files, then those in memory, whose colours are linear.
+// The pictures from files, then those in memory, whose colours are linear.
 std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell &tell) {
     const ColourOptions *colour = request.colour ? &*request.colour : nullptr;
     std::vector<DenoisedPicture> pictures;

@@ -1,4 +1,4 @@
-// What a denoiser made of the views of a request.
+// Passes denoised pictures of a request to its views.
 #pragma once
 
 #include "chain/make_ldi.h"
@@ -7,9 +7,9 @@
 
 namespace sparselens {
 
-// Gives the denoised pictures of the request to the views, whose colours are linear (denoised/denoised_views.h): from files, which it
-// opens and makes linear, from memory, or from the views themselves, which hold both. Nothing where there are none. Throws UsageError
-// where there are not as many as views.
+// Gives the denoised pictures of the request to the views, whose colours are linear (denoised/denoised_views.h). The
+// pictures come from files, which it opens and makes linear, from memory, or from the views themselves, if these hold
+// both. Does nothing if there are none. Throws UsageError if their number is not that of the views.
 void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vector<PackedView> &views,
                    const Tell &tell);
 

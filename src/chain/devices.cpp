@@ -8,7 +8,7 @@ namespace {
 
 std::optional<gpu::DeviceInfo> find_device(const std::string &word, const Tell &tell) {
     if (word == "auto" && !gpu::may_have_gpu()) return {};
-    std::string why_none; // a driver that does not work is none, too
+    std::string why_none; // also if a driver does not work
     const std::vector<gpu::DeviceInfo> there = gpu::list_devices(&why_none);
     if (!why_none.empty()) tell({.kind = NoticeKind::no_vulkan, .values = {why_none}});
     return gpu::choose_device(word, there);

@@ -1,4 +1,4 @@
-// Devices that work for the chain: looked for when a word first asks for one, and kept for what comes next.
+// Devices that work for the chain. A device is searched for when it is first requested, and kept for later work.
 #pragma once
 
 #include "chain/notices.h"
@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// The notices that say what a device has done, and what it has not.
+// The notices that report what a device has done, and what it has not.
 struct DeviceNotices {
     NoticeKind unusable, failed, done, left;
 };
@@ -23,12 +23,12 @@ public:
     using Open = std::unique_ptr<Device> (*)(const gpu::DeviceInfo &, const gpu::Watch &);
     KeptDevice(Open opener, const DeviceNotices &notices) : open_(opener), notices_(notices) {}
 
-    // Calls work(device) with what `word` means, as choose_device() of gpu/device_list.h has it; null: the CPU. One work at a
-    // time has the device, others wait. Says which device it is and what it did. Throws Error where the word means a device that
-    // is not there; one that cannot be used is warned of, and the CPU takes its place.
+    // Calls work(device) with the device that `word` means, as for choose_device() of gpu/device_list.h; null: the CPU.
+    // One piece of work at a time has the device, others wait. Reports which device it is and what it did. Throws Error
+    // if that device does not exist; if it cannot be used, it gives a warning and uses the CPU.
     void with(const std::string &word, const Tell &tell, const std::function<void(Device *)> &work);
 
-    // Gives the device back.
+    // Closes the device.
     void release();
 
 private:
@@ -36,7 +36,7 @@ private:
 
     Open open_;
     DeviceNotices notices_;
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // guards the variables below
     std::string word_ = {}, name_ = {};
     std::unique_ptr<Device> device_;
 };

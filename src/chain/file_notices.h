@@ -1,4 +1,4 @@
-// Notices about files that are read and written.
+// Notices about files, when they are read and written.
 #pragma once
 
 #include "chain/notices.h"
@@ -11,29 +11,29 @@
 
 namespace sparselens {
 
-// The notes and warnings of the reader of a file.
+// The notes and warnings of a file's reader.
 void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
                   const std::vector<std::string> &warnings);
 
-// What happens to each layer, in the order of their first channels: the table of docs/file-format.md.
+// What happens to each layer, in the order of their first channels, as in the table of docs/file-format.md.
 std::vector<std::string> layer_notes(std::span<const Channel> channels);
 void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels);
 
-// Both of an LDI, whether it has per-channel alpha, and the values that were invalid.
+// The notes and warnings of an LDI, whether it has per-channel alpha, and its invalid values.
 void tell_samples(const Tell &tell, const OpenedLdi &in);
 
-// What the file says about its camera, and which attribute says so.
+// What the file states about its camera, and in which attributes.
 void tell_camera(const Tell &tell, const std::string &path, const Camera &camera);
 
-// What checks found in pictures (deep/checks/view_warnings.h).
+// The findings of checks in pictures (deep/checks/view_warnings.h).
 void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings);
 
-// How much overscan the blur needs, in pixels of `across` sub-pixels; a warning if there is too little, and light stands at the border
-// whose disc would be cut.
+// How much overscan the blur needs, in pixels of `across` sub-pixels. It warns if there is too little and a light at
+// the border would have its disc cut.
 void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
                        int across, const LensLooks &looks);
 
-// Each says something only if there is anything to say. `clamped` is the result of write_flat_exr or write_ldi.
+// Both send a notice only if there is something to report. `clamped` is the result of write_flat_exr or write_ldi.
 void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped);
 void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad);
 

@@ -26,7 +26,7 @@ Image light_and_coverage(const Image &image) {
 
 FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell) {
     const std::string name = display_name(path);
-    // Every pixel is in front of the camera, so that its values are repaired as those of a view.
+    // Every pixel is placed in front of the camera, so that its values are repaired like those of a view.
     View view{name, light_and_coverage(file.image), {}};
     view.z.assign(view.image.windows.pixels(), 1);
     const InvalidValues bad = sanitize(view);

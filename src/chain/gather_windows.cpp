@@ -22,12 +22,12 @@ Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *wh
     return box;
 }
 
-// Whether no display window lies beyond `data`.
+// Whether `data` contains the whole display window.
 bool holds(const Imath::Box2i &data, const Imath::Box2i &display) {
     return data.intersects(display.min) && data.intersects(display.max);
 }
 
-// Of the samples of a picture, and of where each of its pixels has its own.
+// The bytes taken by the samples of a picture, and by the index of its pixels.
 double bytes_of(const Ldi &ldi) {
     std::size_t floats = ldi.values.size() * ldi.samples();
     for (const auto *of : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical, &ldi.solid})
@@ -35,7 +35,7 @@ double bytes_of(const Ldi &ldi) {
     return double(floats * sizeof(float)) + double(ldi.begin.size() * sizeof(ldi.begin[0]));
 }
 
-// For `copies` of it, in all.
+// Checks the memory for `copies` of the LDI in total.
 void check_copies(const std::string &name, const Ldi &ldi, int copies) {
     check_memory(name, copies * bytes_of(ldi), std::uint64_t(bytes_of(ldi)));
 }
@@ -53,7 +53,7 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
     }
 }
 
-// The sub-pixels of the display window that share a pixel with those of `box`, and these.
+// `box`, extended to whole blocks of sub-pixels inside the display window.
 Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int across) {
     const Imath::Box2i blocks = subpixels_in(reduced(box, across), across);
     const Imath::Box2i inside({std::max(blocks.min.x, display.min.x), std::max(blocks.min.y, display.min.y)},
@@ -62,8 +62,8 @@ Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int acr
     return box;
 }
 
-// `ldi` with its pixels as far as the blur reaches into the display window, by whole blocks of sub-pixels, which become part of
-// `picture`; empty if it reaches nothing beyond `picture`.
+// `ldi` with added pixels as far as the blur reaches into the display window, in whole blocks of sub-pixels, which are
+// added to `picture` too; empty if nothing reaches beyond `picture`.
 std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          int across, Imath::Box2i &picture) {
     const Imath::Box2i before = picture;
@@ -75,12 +75,13 @@ std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &le
     return padded(ldi, picture);
 }
 
-// How many pixels of the LDI, across and down, become one that is gathered: a proxy is for quick previews.
+// How many pixels of the LDI, across and down, become one gathered pixel. It is more than 1 for a proxy, for quick
+// previews.
 int smaller_by(const WindowOptions &options, const Subpixels &by) {
     return options.proxy > 1 ? options.proxy * by.across : 1;
 }
 
-// The warp looks for images by steps of the picture's pixels: it must have known of them.
+// Checks the pixels for which the LDI was warped, because the warp looks for images in steps of the picture's pixels.
 void check_warped_for(int across, int said, const OpenedLdi &in) {
     if (in.camera.lens_points.size() < 2 || kernels::motion_unit(across) <= kernels::motion_unit(said))
         return;
@@ -90,7 +91,7 @@ void check_warped_for(int across, int said, const OpenedLdi &in) {
                     in.name, said, said, across, across, across));
 }
 
-// All pixels that show something of what is gathered; beyond the display window no filter adds any.
+// Makes all pixels needed that show gathered ones. No filter adds pixels beyond the display window.
 void need_all(GatherWindows &frame, const Imath::Box2i &display) {
     frame.needed = frame.gathered;
     frame.picture = reduced(frame.gathered, frame.subpixels.across);

@@ -1,4 +1,4 @@
-// The pixels that are gathered, and the LDI that they are gathered from.
+// The pixels that are gathered, and the LDI from which they are gathered.
 #pragma once
 
 #include "../base/subpixels.h"
@@ -12,61 +12,63 @@ namespace sparselens {
 
 enum class OutputOverscan {
     grow, // those of the file and those of the display window that the blur reaches; around the data window is nothing
-    keep, // those of the file
-    crop, // those of the file that lie in the display window
+    keep, // the file's pixels
+    crop, // the file's pixels in the display window
 };
 
-// Which pixels a picture is to have, and its size.
+// The pixels that a picture shall have, and its size.
 struct WindowOptions {
     OutputOverscan overscan = OutputOverscan::grow;
-    int proxy = 1;                           // this number of pixels, across and down, becomes one
+    int proxy = 1;                           // this many pixels, across and down, become one
     std::optional<Imath::Box2i> region = {}; // in the full-size picture
     std::optional<int> supersample =
-        {}; // sub-pixels of the LDI, across and down, that become a pixel; else as its file says
-    std::optional<PixelFilter> filter = {}; // else as its file says, else a box
+        {}; // sub-pixels of the LDI, across and down, per pixel; default: as in its file
+    std::optional<PixelFilter> filter = {}; // default: as in its file, or else a box
 };
 
-// As options or the file have it. Throws UsageError where a block of sub-pixels would be cut by the display window, and where views
-// were warped for so much larger pixels that the LDI would be another one (kernels/photo_rules.h).
+// The sub-pixels, from the options or the file. Throws UsageError if the display window would cut a block of
+// sub-pixels, or if the views were warped for so much larger pixels that the LDI would be different
+// (kernels/photo_rules.h).
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
 
-// The pixels that are gathered, those of them that are needed, and the picture that they become, by `subpixels`. A proxy is made of
-// pixels of its own: it has no sub-pixels.
+// The pixels to gather, the needed ones among them, and the picture that they become, by `subpixels`. A proxy consists
+// of its own pixels and has no sub-pixels.
 struct GatherWindows {
     Imath::Box2i gathered, needed, picture;
     Subpixels subpixels;
     std::optional<Ldi> changed; // the LDI to gather; empty: the LDI as it was read
 
     const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
-    // The picture of what was gathered, or of anything else of the pixels that are needed; `nothing`: data of empty sub-pixels.
+    // The picture made of gathered pixels, or of other values of the needed pixels; `nothing`: the data of empty
+    // sub-pixels.
     Image picture_of(Image needed_pixels, float nothing = 0) const;
 };
 
-// Throws UsageError where the pixel to focus on lies outside of the picture, of whose pixels the LDI has `across` sub-pixels to a
-// side.
+// Throws UsageError if the pixel to focus on lies outside of the picture. Each of the picture's pixels has `across`
+// sub-pixels to a side in the LDI.
 void require_inside(const Imath::V2i &focus_pixel, const OpenedLdi &in, int across);
 
-// Throws Error where there is nothing to gather but depth.
+// Throws Error if the LDI has nothing to gather but depth.
 void require_channels(const OpenedLdi &in);
 
-// Whether the LDI to gather has the pixels of the file, whatever they show.
+// Whether the LDI to gather keeps the pixels of the file, whatever they show.
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
 
-// Returns the windows of the file, all of them needed; for a proxy, with a copy of the LDI that is as small.
+// Returns the windows of the file, all needed; for a proxy, with an LDI reduced to its size.
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in);
 
 // The lens of the LDI in the pixels that are gathered.
 ThinLens lens_in_gathered(const WindowOptions &options, const OpenedLdi &in, ThinLens lens);
 
-// Pads a copy of the LDI where the blur of a lens of these looks reaches beyond the picture into the display window, if
-// OutputOverscan::grow, and chooses the pixels of the picture.
-// Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
-// picture needs more memory than the LDI justifies (memory_limit.h).
+// If OutputOverscan::grow is set, pads a copy of the LDI where the blur of a lens of these looks reaches beyond the
+// picture into the display window. Chooses the pixels of the picture. Throws UsageError if a region or a display window
+// contains no pixel of the picture, and Error if the padded picture needs more memory than the LDI justifies
+// (memory_limit.h).
 void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
                     const ThinLens &lens, const LensLooks &looks);
 
-// A holdout of the LDI's size, or of that of the picture, whose pixels then hold out all of their sub-pixels; made as small as the
-// proxy. Throws Error, naming it, where it has another.
+// A holdout of the LDI's size, or of the picture's size, whose pixels then hold out all of their sub-pixels; it is
+// reduced like a proxy. Throws Error, naming it, if it has another size.
 Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &holdout,
                 const std::string &name);
 

@@ -20,7 +20,7 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
     return left_out;
 }
 
-// Deep pictures were made by programs that know what they do.
+// Checks flat pictures only, because deep pictures are made by programs that write them correctly.
 void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
     if (in.deep) return;
     tell_warnings(tell, picture_warnings(front_view(in.ldi, in.name),
@@ -29,7 +29,7 @@ void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
 
 } // namespace
 
-// An LDI whose samples were used up has not even empty pixels.
+// An LDI whose samples were used up does not even have empty pixels.
 bool LdiCache::holds(const Key &key) const {
     return last_ && key_ == key && !last_->reduced() && !last_->ldi.begin.empty();
 }
@@ -42,7 +42,7 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const Cho
                   depth.picture.unpremultiplied);
     read_now_ = !holds(key);
     if (read_now_) {
-        last_.reset(); // two at a time may be more than fits
+        last_.reset(); // because two at a time may not fit in memory
         tell({NoticeKind::reading, path});
         OpenedLdi opened = open_ldi(path, {lens, depth}, choose);
         tell_samples(tell, opened);

@@ -1,4 +1,4 @@
-// Opens the LDI of a picture, and keeps the last one, so that a pull of focus over one file reads it once.
+// Opens the LDI of a picture and keeps the last one, so that pulling focus over one file reads it only once.
 #pragma once
 
 #include "../io/open_ldi.h"
@@ -11,20 +11,20 @@
 
 namespace sparselens {
 
-// A file with samples, and what is read of it.
+// A file with samples, and what to read from it.
 struct LdiRequest {
-    std::string input = {}, recolor = {}; // `recolor`: the flat picture of its colours, or ""
+    std::string input = {}, recolor = {}; // `recolor`: the flat picture with its colours, or ""
     std::string channels = {};            // comma-separated (channels.h); empty: all
-    LensValues lens = {};                 // over what the file says
+    LensValues lens = {};                 // override the file's values
     DepthOptions depth = {};
     ColourOptions colour = {};
 };
 
 class LdiCache {
 public:
-    // Opens, recolours and makes linear what is asked for if the last file was another, was read by other options, or has been used up
-    // since; the channels that are not asked for are left out. The camera is that of the file alone, without `lens`. Earlier results
-    // become invalid.
+    // Opens, recolours and makes linear the requested file, if the last file was another, was read with other options,
+    // or has been used up since. Channels that are not requested are left out. The camera is that of the file alone,
+    // without `lens`. Earlier results become invalid.
     OpenedLdi &load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose = {});
 
     // The result of the last load(), whether it read the file, and which of its channels were left out.

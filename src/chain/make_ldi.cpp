@@ -18,15 +18,15 @@ namespace sparselens {
 
 namespace {
 
-// The views on the lens, and what the files say of them.
+// The views on the lens, and notes about their files.
 struct PlacedViews {
     std::vector<PackedView> views; // the centre view first
     Imf::Header header;            // of the centre view
     Camera camera;                 // of the centre view, with the lens points of all views
     DepthMeaning depth = DepthMeaning::planar;
     bool depth_filtered = false, unpremultiplied = false;            // of the centre view, see OpenedView
-    std::vector<InvalidValues> bad = {};                             // of each file
-    std::vector<std::vector<std::string>> notes = {}, warnings = {}; // of each file
+    std::vector<InvalidValues> bad = {};                             // per file
+    std::vector<std::vector<std::string>> notes = {}, warnings = {}; // per file
 };
 
 void add(PlacedViews &to, OpenedPackedView &opened) {
@@ -48,10 +48,10 @@ Camera with_subpixels(Camera camera, const LdiFromViews &request) {
     return camera;
 }
 
-constexpr std::size_t not_packed_yet = 2; // views in memory: packed they take half
+constexpr std::size_t not_packed_yet = 2; // views in memory; packed ones take half
 
-// The position of a view is the one given, else that of worldToCamera (see position_on_lens, whose errors are thrown).
-// Its framing comes from its metadata, else it is that of the centre view.
+// The position of a view is the given one, or else follows from worldToCamera (see position_on_lens, whose errors are
+// thrown). Its framing comes from its metadata, or else is that of the centre view.
 PlacedViews open_views(const LdiFromViews &request) {
     std::vector<std::optional<Imath::V2d>> positions(request.files.size());
     std::vector<std::string> paths = request.files;
@@ -100,7 +100,7 @@ PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &r
     return placed;
 }
 
-// Views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
+// Reports views whose framing differs from that of the centre view, because a misread frustum makes ghosts, too.
 void tell_framings(const Tell &tell, std::span<const PackedView> views) {
     for (const PackedView &view : views.subspan(1)) {
         const Framing &centre = views[0].framing, &own = view.framing;
@@ -128,7 +128,7 @@ std::size_t pixels_given(const ViewSamples &view) {
     return count;
 }
 
-// What the views give to the warp, which takes their pixels.
+// Counts what the views give to the warp, before the warp takes their pixels.
 void count_given(std::span<const PackedView> views, MadeLdi &out) {
     out.views = views.size();
     out.all_pixels = views.size() * views[0].samples.windows.pixels();
@@ -161,7 +161,7 @@ void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &requ
 }
 
 MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &work) {
-    check_views(in.views); // before anything is said of views that do not go together
+    check_views(in.views); // before notices about views that do not fit together
     tell_views(work.tell, in);
     MadeLdi out;
     out.header = in.header;

@@ -1,4 +1,5 @@
-// What the chain has to say beside its results, as data: a face makes words of it (words.h), or finds by it what to mark.
+// What the chain reports beside its results, as data. An interface turns a notice into words (words.h), or finds by it
+// what to mark.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +10,25 @@
 
 namespace sparselens {
 
-// In the order of the table of words.
+// In the order of the table of words. Each comment lists the notice's values.
 enum class NoticeKind {
-    // Files. Values: what a reader says, in its words.
+    // Files. Values: the reader's own words.
     reading,
     file_note,
     file_warning,
     coverage_by_colour,
-    clamped, // how many values
+    clamped, // number of values
     camera,
-    camera_unsure, // why; the parameter settles it
+    camera_unsure, // the reason; `parameter` settles it
     // Colours.
     colour_space, // name
     unnamed_chromaticities,
     unnamed_space,  // attribute
-    no_colorconfig, // why
+    no_colorconfig, // the reason
     displayed,
     // Views and LDIs.
-    picture_warning,   // what a check found, in its words
-    coverage_differs,  // the deep file, pixels, of all
+    picture_warning,   // a check's finding, in its words
+    coverage_differs,  // the deep file, number of pixels, of all pixels
     without_colours,   // the deep file, pixels
     light_at_infinity, // pixels
     regions,           // radius, focal length in pixels, focus
@@ -36,7 +37,7 @@ enum class NoticeKind {
     clustered,         // samples before and after, the largest change of the CoC in pixels
     clustered_blindly,
     // Pictures.
-    focused, // depth, x, y
+    focused, // depth, x, y of the pixel
     wide_lens,
     round_aperture,   // method
     overscan,         // pixels needed, pixels rendered
@@ -44,12 +45,12 @@ enum class NoticeKind {
     // Devices.
     on_cpu,
     on_device,       // name
-    no_vulkan,       // why
-    gather_unusable, // why
-    gather_failed,   // why
-    gathered_tiles,  // by the device, of all
-    left_tiles,      // how many, why
-    warp_unusable,   // the same of the warp
+    no_vulkan,       // reason
+    gather_unusable, // reason
+    gather_failed,   // reason
+    gathered_tiles,  // tiles of the device, all tiles
+    left_tiles,      // number, reason
+    warp_unusable,   // the same for the warp
     warp_failed,
     warped_rows,
     left_rows,
@@ -61,11 +62,11 @@ struct Notice {
 
     NoticeKind kind;
     std::string file = {};          // its name, for messages
-    std::vector<Value> values = {}; // as the kind has them
-    std::string parameter = {};     // that would change it, as errors name it (base/error.h)
+    std::vector<Value> values = {}; // as listed with the kind
+    std::string parameter = {};     // that would change it, named as in errors (base/error.h)
 };
 
-// Called with each when it is known, by one thread at a time.
+// Called with each notice as soon as it is known, by one thread at a time.
 using Tell = std::function<void(const Notice &)>;
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// The looks of the lens that a picture is taken with, and the picture's header that says so.
+// The looks of the lens that takes a picture, and the picture's header that records them.
 #pragma once
 
 #include "../base/image.h"
@@ -14,7 +14,7 @@
 
 namespace sparselens {
 
-// read_looks() (io/lens_file.h), which keeps what the last files said: one of them may be a pipe.
+// Calls read_looks() (io/lens_file.h) and keeps the contents of the last files, because one of them may be a pipe.
 class LooksReader {
 public:
     LensFile read(const GivenLooks &given, std::optional<double> fstop);
@@ -25,12 +25,12 @@ private:
     std::optional<LensFile> said_;
 };
 
-// What was given, else what the camera says. The camera then says the same, and the header names the lens. `lens` is that
-// of the picture. Throws as resolve_looks() does.
+// The given looks; where none are given, those of the camera. The camera then gets them, and the header names the lens.
+// `lens` is that of the picture. Throws as resolve_looks() does.
 LensLooks picture_looks(const LensFile &given, Camera &camera, Imf::Header &header, const ThinLens &lens,
                         const Windows &windows);
 
-// Whether a method that takes the aperture for round misses what they say.
+// Whether a method that treats the aperture as round would ignore some of these looks.
 bool shape_aperture(const LookValues &looks);
 
 } // namespace sparselens

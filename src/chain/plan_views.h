@@ -1,4 +1,4 @@
-// Plans which views are worth rendering beside the centre view.
+// Plans which views are worth rendering in addition to the centre view.
 #pragma once
 
 #include "chain/notices.h"
@@ -17,7 +17,7 @@ struct PlannedViews {
     Camera camera; // of the centre view, with the lens and the sub-pixels of the plan
 };
 
-// `lens` and `supersample`: over what the view says.
+// `lens` and `supersample` override the view's values.
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, Progress &progress, const Tell &tell);
 

@@ -43,7 +43,7 @@ void require_one_frame(const OpenedLdi &ldi, const FlatLight &beauty) {
                         beauty.name, ldi.name));
 }
 
-// The names that channels have in files: those of light as in the beauty, the others as in the deep file.
+// The names that channels get in files: those of light as in the beauty, the others as in the deep file.
 KeptNames kept_names(const std::vector<Channel> &channels, const Imf::Header &deep, const Imf::Header &flat) {
     const std::vector<Channel> of_deep = by_kept_names(channels, deep),
                                of_flat = by_kept_names(channels, flat);

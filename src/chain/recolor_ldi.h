@@ -10,14 +10,15 @@
 
 namespace sparselens {
 
-// Recolours the LDI, whose header then says the colour space and the names of the colours of the file; these are made linear as
-// `colour` says, or are where there is none. `path` is for messages. Throws Error, naming both files, where their display windows or
-// pixels differ in shape, or they have no pixel in common, and where the file has no colours.
+// Recolours the LDI; its header then states the colour space and the names of the file's colours. `colour` says how
+// these are made linear; null: they are linear. `path` is for messages. Throws Error, naming both files, if their
+// display windows or the shapes of their pixels differ, or they have no pixel in common; and if the file has no
+// colours.
 void recolor_by(FlatFile file, const std::string &path, const ColourOptions *colour, OpenedLdi &ldi,
                 const Tell &tell);
 
-// The same by a flat EXR; the choice is that of the picture with the samples, but for its depth.
-// Nothing where the path is empty. Throws Error, naming the file, where it is deep or cannot be read.
+// The same with a flat EXR. `choice` is that of the picture with the samples, except for its depth. Does nothing if the
+// path is empty. Throws Error, naming the file, if it is deep or cannot be read.
 void recolor_by(const std::string &path, const PictureChoice &choice, const ColourOptions &colour,
                 OpenedLdi &ldi, const Tell &tell);
 

@@ -24,7 +24,7 @@ bool is_lens_method(const PictureRequest &request) {
 }
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
-// The picture of `in`, whose samples may be used up where they are `own`.
+// Takes the picture of `in`. Its samples may be used up if they are `own`.
 class Taking {
 public:
     Taking(const OpenedLdi &in, Ldi *own, const PictureRequest &request, const PictureWork &work)
@@ -50,7 +50,7 @@ private:
     const Ldi &ldi() const { return frame_.ldi(in_); }
 
     void aim() {
-        tell_camera(work_.tell, in_.name, in_.camera); // also if that is not enough
+        tell_camera(work_.tell, in_.name, in_.camera); // even if the lens is still incomplete
         out_.camera =
             picture_camera(request_, in_, [this](const Imath::V2i &at) { return front_depth(in_.ldi, at); });
         if (const auto &pixel = request_.focus_pixel)
@@ -94,7 +94,7 @@ private:
         by_.gather.views_radius = views_radius(out_.camera);
         const bool shows_pixels = request_.show == Show::picture && request_.windows.proxy == 1;
         by_.gather.lens.watch = shows_pixels && frame_.subpixels.across == 1 ? work_.watch : nullptr;
-        if (in_.reduced() && merges_by_rows(in_.ldi.channels)) by_.layer_tolerance = 0; // they are merged
+        if (in_.reduced() && merges_by_rows(in_.ldi.channels)) by_.layer_tolerance = 0; // already merged
         const auto gather_by = [&](TileDevice *device) {
             by_.gather.lens.device = device;
             if (needs_gather(request_.show))
@@ -123,7 +123,7 @@ private:
 
     Image shown() const {
         ThinLens lens = lens_;
-        lens.focal_px /= frame_.subpixels.across; // circles of confusion in pixels of the picture
+        lens.focal_px /= frame_.subpixels.across; // circles of confusion are in pixels of the picture
         if (request_.show != Show::tiles) return false_colours(request_.show, ldi(), lens);
         const Windows windows{ldi().windows.display, frame_.gathered, ldi().windows.pixel_aspect};
         LensTiles tiles = out_.tiles;
@@ -138,11 +138,11 @@ private:
     PictureOptions by_;
     std::optional<Ldi> holdout_;
     GatherWindows frame_;
-    ThinLens lens_; // of the pixels that are gathered
+    ThinLens lens_; // for the pixels that are gathered
     TakenPicture out_;
 };
 
-// Empty if more than the picture is made of the samples, else by what they are reduced while the file is read.
+// How samples are reduced while the file is read; empty if more than the picture is made from them.
 ChooseSamples choose_samples(const PictureRequest &request, bool keep, const PictureWork &work) {
     if (keep || request.show != Show::picture || request.front_depth || !request.holdout.empty() ||
         request.opened_holdout || request.picture.holdout || request.focus_pixel || !request.recolor.empty())
@@ -211,7 +211,7 @@ ThinLens picture_lens(const PictureRequest &request, const OpenedLdi &in, const 
 
 Ldi open_holdout(const PictureRequest &request, const OpenedLdi &in) {
     OpenOptions by{request.lens, request.depth};
-    by.depth.picture.depth_file.clear(); // of the picture
+    by.depth.picture.depth_file.clear(); // belongs to the picture
     const OpenedLdi opened = open_ldi(request.holdout, by);
     return holdout_for(in, request.windows, opened.ldi, opened.name);
 }

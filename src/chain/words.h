@@ -1,4 +1,4 @@
-// The words of notices: one table for all faces. Parameters stand between backquotes, as in errors (base/error.h).
+// The words of notices: one table for all interfaces. Parameters stand between backquotes, as in errors (base/error.h).
 #pragma once
 
 #include "chain/notices.h"
@@ -6,9 +6,9 @@
 namespace sparselens {
 
 enum class NoticeLevel {
-    note, // for those who ask
+    note, // shown on request
     warning,
-    once, // a warning that need not be repeated for each frame
+    once, // a warning that need not be repeated for each frame of an animation
 };
 
 NoticeLevel level_of(const Notice &notice);

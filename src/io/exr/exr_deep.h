@@ -21,7 +21,7 @@ struct LdiFile {
     Ldi ldi;
     Imf::Header header;
     bool deep = true;                      // false: the file is a flat picture
-    std::vector<std::string> notes;        // what was taken for what, and how several parts were combined
+    std::vector<std::string> notes;        // how channels were interpreted and several parts were combined
     std::vector<std::string> warnings;     // likely mistakes
     std::optional<PackedRows> packed = {}; // the samples, in place of those of `ldi`
 };

@@ -243,7 +243,7 @@ Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileC
     const Planes planes = plan_planes(ldi, channels, depth);
     const bool tiled = header.type() == Imf::DEEPTILE;
     constexpr std::size_t counts = 3; // in floats: a count, and where its samples begin
-    const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
+    const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // few rows at a time need little
     check_memory(source.path, source.held + memory_of(header, counts + pointers), source.size);
     if (reduce)
         read_reduced(source, number, ldi, channels, depth, reduce, packed);

@@ -239,7 +239,7 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
                         reduce && numbers.size() == 1 ? ReduceRows(by_rows) : ReduceRows());
         if (picture.is_merged()) header = without_attribute(header, "name"); // it names an object
         if (is_standard_stream(path))
-            header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
+            header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's compression is not the picture's
         Ldi ldi = picture.whole();
         find_kinds_by(header, ldi.channels);
         set_kept_names(header, picture.kept_names());

@@ -16,7 +16,7 @@ namespace sparselens {
 // The attributes cryptomatte/.../name.
 std::vector<std::string> matte_names(const Imf::Header &header);
 
-// The header with the attributes cryptomatte/... of all parts: the mattes may lie in parts of their own.
+// The header with the attributes cryptomatte/... of all parts, because mattes may lie in their own parts.
 Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header header);
 
 // Sets the kinds of channels (base/channel_kind.h) by their names and by the mattes that the header names.
