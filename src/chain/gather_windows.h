@@ -11,7 +11,7 @@
 namespace sparselens {
 
 enum class OutputOverscan {
-    grow, // those of the file and those of the display window that the blur reaches; around the data window is nothing
+    grow, // the file's pixels, and those of the display window that the blur reaches; nothing lies beyond
     keep, // the file's pixels
     crop, // the file's pixels in the display window
 };

@@ -24,7 +24,7 @@ enum class Show { picture, coc, focus, layers, tiles };
 // Values that the request leaves out come from the LDI. For an LDI in memory, the path and the way to read it are
 // ignored.
 struct PictureRequest : LdiRequest {
-    std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; else `lens` says the focus
+    std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; empty: `lens` has it
     GivenLooks looks = {};
     WindowOptions windows = {};
     PictureOptions picture = {}; // its holdout: as made by holdout_for(), if neither of the next two is set

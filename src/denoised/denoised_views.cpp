@@ -40,7 +40,7 @@ bool has_all(const DenoisedPicture &denoised, std::span<const Channel> channels,
     });
 }
 
-// The layers that all denoised pictures have, without coverage.
+// The layers that all denoised pictures have, except coverage.
 std::vector<Layer> denoised_layers(std::span<const PackedView> views,
                                    std::span<const DenoisedPicture> denoised) {
     const std::vector<Channel> &channels = views[0].samples.channels;
@@ -71,7 +71,7 @@ DenoisedLayer layer_of(const PackedView &view, const DenoisedPicture &denoised,
     return made;
 }
 
-// The denoised values, and of what they lack the share that is kept.
+// Adds the kept share of the details that the denoised values lack.
 void blend(DenoisedLayer &layer, const Values &kept) {
     parallel_ranges(kept.size(), std::size_t(1) << 14, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 0; c < layer.noisy.size(); ++c)
@@ -82,7 +82,7 @@ void blend(DenoisedLayer &layer, const Values &kept) {
     });
 }
 
-// By view, the planes that change.
+// The changed planes of each view.
 std::vector<std::vector<NewPlane>> new_planes(std::span<const PackedView> views,
                                               std::span<const DenoisedPicture> denoised, double focal_px,
                                               double scale) {

@@ -14,13 +14,14 @@ namespace {
 
 using Tuning = DenoisedTuning;
 
-// The details of one pixel, compared with those of other views at the same place. Means and squares are over the channels.
+// The details of one pixel, compared with those of other views at the same place. Means and squares run over the
+// channels.
 struct Evidence {
     float shared = 0;     // mean product with other views
     float difference = 0; // half of the mean squared difference
-    float own = 0;        // square of its own
+    float own = 0;        // its own square
     float stands_out = 0; // square of the mean over all views
-    float views = 0;      // that show it, besides this one
+    float views = 0;      // other views that show the pixel
 };
 
 // Four pixels of a view and their weights, around a place between them.
@@ -36,7 +37,7 @@ struct Between {
     }
 };
 
-// False outside of the view.
+// Returns false outside of the view.
 bool between(const Grid &grid, const Imath::V2d &place, Between &found) {
     const Imath::Box2i box = grid.box();
     const double x = place.x - 0.5 - box.min.x, y = place.y - 0.5 - box.min.y;
@@ -112,7 +113,7 @@ private:
     double scale_;
 };
 
-// Planes of what is averaged over windows. Where no other view shows a pixel, its part of the means over views is 0.
+// The planes that are averaged over windows. Where no other view shows a pixel, its part of the means over views is 0.
 struct Planes {
     explicit Planes(std::size_t pixels)
         : shared(pixels), difference(pixels), log_difference(pixels), log_own(pixels), compared(pixels),
@@ -130,7 +131,7 @@ struct Planes {
         views[i] = found.views;
     }
 
-    // Over windows, but for what a single pixel is judged by.
+    // Averages over windows all planes except those that judge a single pixel.
     void average(const Grid &grid) {
         for (Values *values : {&shared, &difference, &log_difference, &log_own, &compared})
             soft_mean(*values, grid, Tuning::window_radius);
@@ -147,7 +148,7 @@ private:
         float noise, errors;
         if (views[i] > 0) {
             const float around = Tuning::mean_over_geometric * std::exp(log_difference[i] / compared[i]);
-            noise = std::max(around, own_difference[i]) / (views[i] + 1); // a firefly of one view is no lamp
+            noise = std::max(around, own_difference[i]) / (views[i] + 1); // a firefly is not a lamp
             errors = Tuning::standard_errors;
         } else {
             noise = Tuning::mean_over_geometric_alone * std::exp(log_own[i]);
@@ -158,7 +159,7 @@ private:
     }
 
     Values shared, difference, log_difference, log_own,
-        compared; // the last: 1 where another view shows the pixel, else 0
+        compared; // the last one is 1 if another view shows the pixel, otherwise 0
     Values stands_out, own_difference, views;
 };
 

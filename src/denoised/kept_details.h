@@ -1,11 +1,12 @@
-// Which of the details that a denoiser took from views are no noise.
+// Decides which of the details that a denoiser removed from views are not noise.
 //
-// Noise of one view is independent of that of another. A detail is on a surface, so all views that see the surface show it. Let
-// R be the noisy view less the denoised one, averaged over 3 x 3 pixels. Over a window, the mean of the products of R in two
-// views is what the views share, b^2; half of the mean squared difference is the noise, s^2. The best share of R to keep is
-// b^2 / (b^2 + s^2) (N. Wiener, 1949). A small lamp is one pixel of a window: it is kept as far as the mean of R over the views
-// stands out from the noise there (W. James, C. Stein, 1961), which is told by geometric means, because lamps of other surfaces
-// are outliers among the differences; views must agree on the lamp, as they do not on a firefly.
+// The noise of one view is independent of the noise of another. A detail is on a surface, so all views that see the
+// surface show it. Let R be the noisy view minus the denoised one, averaged over 3 x 3 pixels. Over a window, the mean
+// product of R in two views is the square of the common part, b^2; half of the mean squared difference is the square of
+// the noise, s^2. The best share of R to keep is b^2 / (b^2 + s^2) (N. Wiener, 1949). A small lamp is one pixel of a
+// window: it is kept as far as the mean of R over the views stands out from the noise around (W. James, C. Stein,
+// 1961). That noise is measured by geometric means, because lamps of other surfaces are outliers among the differences.
+// Views must agree on the lamp; on a firefly they do not.
 #pragma once
 
 #include "base/grid.h"
@@ -25,12 +26,12 @@ struct DenoisedLayer {
     Colours noisy, denoised;  // the same channels
 };
 
-// What the noisy view has and the denoised one lacks, averaged over small squares. By channel.
+// The part of the noisy view that the denoised one lacks, averaged over small squares, by channel.
 Colours details_of(const DenoisedLayer &view);
 
-// For each pixel of views[at], the share of what the denoiser took that is kept: 0 to 1. `details` are those of all views.
-// `scale`: perceptive depth times z, pixels times scene units; views show the same surface where perceptive depths differ by
-// less than one_surface_px.
+// For each pixel of views[at], the share of the removed details that is kept: 0 to 1. `details` are those of all views.
+// `scale`: perceptive depth times z, pixels times scene units. Views show the same surface if their perceptive depths
+// differ by less than one_surface_px.
 Values kept_details(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
                     double scale);
 

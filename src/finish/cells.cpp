@@ -9,7 +9,7 @@ namespace sparselens {
 
 namespace {
 
-// How far the middle of pixel `at` of a cell lies beyond that of the cell, in cells.
+// How far the middle of pixel `at` of a cell lies beyond the cell's middle, in cells.
 float beyond_middle(std::size_t at, std::size_t side) { return (float(at) + 0.5f) / float(side) - 0.5f; }
 
 template <std::size_t side>

@@ -1,5 +1,5 @@
-// Square cells of pixels. What windows of many pixels say changes little from one pixel to the next, so it is worked out for cells
-// and interpolated between their middles.
+// Square cells of pixels. Sums over windows of many pixels change little from one pixel to the next, so they are
+// computed for cells and interpolated between the middles of cells.
 #pragma once
 
 #include "base/grid.h"
@@ -9,7 +9,7 @@
 
 namespace sparselens {
 
-// Pixels of a row that are treated at once; those behind its end are 0.
+// Pixels of a row that are processed at once; entries beyond its end are 0.
 constexpr std::size_t run_length = 64;
 using Run = std::array<float, run_length>;
 
@@ -22,17 +22,17 @@ public:
     const Grid &grid() const { return grid_; } // of the cells
     std::size_t side() const { return side_; }
     std::size_t row_of(std::size_t y) const { return y / side_; }
-    // The pixel rows of a row of cells: the first, and the one behind the last.
+    // The pixel rows of a row of cells: the first, and the one after the last.
     std::array<std::size_t, 2> rows(std::size_t row) const;
 
     // Adds a run that begins at column x to a row of sums.
     void add(const Run &run, std::size_t x, std::span<float> sums) const;
-    // Makes a row of sums the means over the pixels of each cell.
+    // Divides a row of sums, which gives the means over the pixels of each cell.
     void divide(std::size_t row, std::span<float> sums) const;
-    // The row of a plane of cells.
+    // One row of a plane of cells.
     std::span<float> of_row(Values &plane, std::size_t row) const;
 
-    // The pixels of row y, between the middles of cells, and some behind its end.
+    // Sets the pixels of row y, interpolated between the middles of cells, and some entries beyond its end.
     void interpolate(const Values &plane, std::size_t y, std::vector<float> &pixels) const;
 
 private:

@@ -1,4 +1,4 @@
-// Classes of equal weight along a measure, and the continuous place of a value among them.
+// Classes of equal weight along a measure, and the continuous place of a value in them.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@ namespace sparselens {
 
 class Classes {
 public:
-    // For values in [least, most]; values outside count as the nearer end.
+    // For values in [least, most]; other values count as the nearer limit.
     Classes(std::size_t count, float least, float most);
 
-    // Each pixel counts half by its weight and half by itself, so that neither many pixels of little weight nor a few of
-    // much make all classes.
+    // Each pixel counts half by its weight and half equally, so that neither many pixels of little weight nor a few of
+    // great weight make up all classes.
     void add(float value, double weight);
     void divide(); // after the last add()
 
@@ -26,7 +26,7 @@ private:
     std::size_t count_;
     float least_, most_;
     std::vector<std::array<double, 2>> bins_; // pixels, weights
-    std::vector<float> places_;               // where bins begin, in classes; one more
+    std::vector<float> places_;               // of the beginnings of bins, and of the last end
 };
 
 } // namespace sparselens

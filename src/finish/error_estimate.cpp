@@ -17,7 +17,7 @@ float shown_slope(float value) {
     return slope * slope;
 }
 
-// The mean of a plane and the standard deviation of that, as its blocks differ.
+// The mean of a plane, and the standard deviation of the mean, from the differences between its blocks.
 std::array<double, 2> mean_and_deviation(const Values &values, const Grid &grid) {
     const Tiles blocks(grid.box(), FinishTuning::block_px);
     std::vector<double> sums(blocks.count(), 0);
@@ -76,7 +76,7 @@ std::optional<double> times_the_rays(const ErrorEstimate &error, const std::arra
     const auto now = decibels(error);
     if (!now) return {};
     if (goal <= *now) return 1;
-    // Between the best that noise can do and a fall that is hardly seen.
+    // Exponents between the best possible fall of noise and a fall that is hardly noticeable.
     constexpr double fastest = 1, slowest = 0.25;
     const double all = samples[0] + samples[1], one = std::sqrt(samples[0] * samples[1]);
     const double fall = std::log(std::max(error.of_one / error.mean, 1.0)) / std::log(all / one);

@@ -10,12 +10,12 @@ namespace sparselens {
 
 namespace {
 
-// The same of a run of pixels.
+// The same for a run of pixels.
 struct RunEvidence {
     std::array<Run, 3> energy{};
     std::array<Run, 2> confirmed{}, left{}, removed{};
     Run spread{}, noise{};
-    Run light{}, variance{}; // that the rays show above the picture
+    Run light{}, variance{}; // of the light that the rays show above the picture
 };
 
 struct Pixels {
@@ -24,7 +24,7 @@ struct Pixels {
     std::array<float, 2> shares; // of the samples
 };
 
-// Nearly max(a, b).
+// Approximately max(a, b).
 inline float larger(float a, float b) { return b + positive(a - b); }
 
 struct Tested {
@@ -66,7 +66,7 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
 
 double sum_of(const Run &run) { return std::accumulate(run.begin(), run.end(), 0.0); }
 
-// Each plane of cells with the run that it is made of.
+// Each plane of cells with the run that is added to it.
 template <typename Of>
 void for_planes(CellEvidence &cells, RunEvidence &run, const Of &of) {
     for (std::size_t k = 0; k < 3; ++k) of(cells.energy[k], run.energy[k]);

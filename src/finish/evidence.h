@@ -1,5 +1,5 @@
-// What two independent renders say of a candidate, cell by cell (cells.h): how much it changes, how much of that the render
-// confirms that did not make it, and how much is noise.
+// The evidence of two independent renders about a candidate, cell by cell (cells.h): how much it changes, how much of
+// the change the other render confirms, which did not make it, and how much is noise.
 #pragma once
 
 #include "finish/cells.h"
@@ -9,25 +9,26 @@ namespace sparselens {
 // Two independent renders of the same pixels.
 struct RayEvidence {
     const Halves &rays;
-    std::array<double, 2> samples; // a pixel, > 0: how much each counts
+    std::array<double, 2> samples; // per pixel, > 0: how much each render counts
     Grid grid;
 };
 
-// Pictures made of the first render, of the second, and of both: the third is the result, the others test it.
+// Pictures made of the first render, of the second, and of both. The third is the result; the others test it.
 using Trio = std::array<Colours, 3>;
 
-// Means over the pixels of each cell, of sums over channels, weighted by the tone curve. B is a candidate, A the picture so far,
-// and y the render that tests it.
+// Means over the pixels of each cell, of sums over channels weighted by the tone curve. B is a candidate, A the current
+// picture, and y the render that tests it.
 struct CellEvidence {
     std::array<Values, 3> energy;    // (B - A)^2
     std::array<Values, 2> confirmed; // (B - A)(y - A)
-    std::array<Values, 2> left;      // the square of (B - A)(y - B)
+    std::array<Values, 2> left;      // ((B - A)(y - B))^2
     std::array<Values, 2>
         removed;   // (B - A)^2 times the light that B takes away, for the variance of such light
-    Values spread; // the square of the difference between what both renders change
-    Values noise;  // of the renders, squared difference
-    // How much light a bright event brings to one sample: its variance over its mean, as events of S. Poisson have it, of all
-    // light that the rays show above the picture. Light that both renders show alike is not an event, and adds to the mean alone.
+    Values spread; // the squared difference between the changes by both renders
+    Values noise;  // squared difference of the renders
+    // How much light a bright event brings to one sample: the variance over the mean, as for Poisson-distributed
+    // events, of all light that the rays show above the picture. Light that both renders show alike is not an event,
+    // and adds only to the mean.
     double event_height = 0;
 };
 

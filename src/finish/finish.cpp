@@ -18,8 +18,8 @@ Halves regressed(const LayerToFinish &layer, const Values &weights, const Finish
     return predicted;
 }
 
-// A pixel of which all say the same stays: nothing remains nothing around an element, however far windows reach, and coverage of 1
-// remains 1.
+// Keeps pixels on which picture and renders agree: nothing around an object stays nothing, however far windows reach,
+// and coverage of 1 stays 1.
 void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
     for (std::size_t i = 0; i < layer.grid.size(); ++i) {
         bool agreed = true;

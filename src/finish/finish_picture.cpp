@@ -14,16 +14,16 @@ namespace sparselens {
 
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render says nothing
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render has no value
 
-// Beyond every light; squares of what is larger overflow.
+// Brighter than any light; squares of larger values overflow.
 constexpr float largest = 1e8f;
 
 bool is_told(float value) { return std::abs(value) <= largest; } // false for NaN
 
 bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
 
-// The values of a channel over the pixels of `windows`; nothing outside its data window.
+// The values of a channel over the pixels of `windows`; `nothing` outside its data window.
 Values over(const Image &image, std::size_t channel, const Windows &windows) {
     const Grid grid = windows.grid(), own = image.windows.grid();
     const std::span<const float> plane = image.plane(channel);
@@ -47,7 +47,8 @@ void check_window(const Render &render, const Windows &windows) {
                             windows.display_height()));
 }
 
-// Leaves only finite values: where a render says nothing, what is gathered; where that says nothing either, 0.
+// Leaves only finite values: where a render has none, the gathered value; where the gathered picture has none either,
+// 0.
 void settle(Colours &gathered, std::vector<Halves *> halves) {
     for (std::size_t c = 0; c < gathered.size(); ++c)
         parallel_ranges(gathered[c].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
@@ -57,7 +58,7 @@ void settle(Colours &gathered, std::vector<Halves *> halves) {
                 if (!is_told(g)) g = 0;
             }
         });
-    // A pixel is taken or left as a whole, so that its colours belong together.
+    // A pixel is taken or left as a whole, so that its colours stay consistent.
     parallel_ranges(gathered[0].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             for (Halves *pair : halves) {
@@ -125,7 +126,7 @@ void TwoHalves::add(const Render &render) {
     check_window(render, windows_);
     const std::size_t half = samples_[0] <= samples_[1] ? 0 : 1;
     samples_[half] += render.samples;
-    const auto share = float(render.samples / samples_[half]); // 1 for the first of a half
+    const auto share = float(render.samples / samples_[half]); // 1 for the first render of a half
     std::size_t missing = 0;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!has_[c]) continue;

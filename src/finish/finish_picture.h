@@ -1,5 +1,5 @@
-// Whole pictures through finish_layer(): R, G and B of the beauty and of each layer together, alpha and other light channels each
-// alone; depth, data, ids and Cryptomattes stay as gathered.
+// Finishes whole pictures by finish_layer(): R, G and B of the beauty and of each layer together, alpha and every other
+// light channel alone. Depth, data, ids and Cryptomattes stay as gathered.
 #pragma once
 
 #include "base/image.h"
@@ -12,26 +12,27 @@
 
 namespace sparselens {
 
-// A picture of the same display window as the gathered one; `name` is that of its file, for messages.
+// A picture with the display window of the gathered one; `name` is its file, for messages.
 struct Render {
     std::string name;
     Image image;
-    double samples = 1; // a pixel, > 0
+    double samples = 1; // per pixel, > 0
 };
 
-// Two or more independent renders through the same lens, added up to two halves of nearly equal numbers of samples. Pixels
-// outside a render's data window, and those with a value that is not finite or above 1e8, stay as gathered.
+// Two or more independent renders through the same lens, added up to two halves of nearly equal numbers of samples.
+// Pixels outside a render's data window, and pixels with a value that is not finite or above 1e8, stay as gathered.
 class TwoHalves {
 public:
     explicit TwoHalves(const Image &gathered);
 
-    // Throws Error, naming the file, where its display window is not that of the gathered picture.
+    // Throws Error, naming the file, if its display window differs from that of the gathered picture.
     void add(const Render &render);
-    bool complete() const; // holds two
+    bool complete() const; // whether both halves have a render
 
     std::array<double, 2> samples() const { return samples_; }
     std::size_t missing() const { return missing_; } // pixels that stay as gathered, over all renders
-    // Empty where a render lacks the channel. The planes of the caller's channels, for both halves.
+    // The planes of a channel of the gathered picture, for both halves. Empty if a render lacks it. The caller takes
+    // them.
     std::array<Values, 2> take(std::size_t channel);
     bool has(std::size_t channel) const { return has_[channel]; }
 
@@ -39,7 +40,7 @@ private:
     Windows windows_;
     std::vector<Channel> channels_;
     std::array<std::vector<Values>, 2>
-        sums_; // by channel of the gathered picture; empty: not a channel that is finished
+        sums_; // by channel of the gathered picture; empty: not finished
     std::vector<bool> has_;
     std::array<double, 2> samples_{0, 0};
     std::size_t missing_ = 0;
@@ -48,19 +49,19 @@ private:
 struct PictureToFinish {
     Image gathered;
     TwoHalves rays;
-    std::vector<TwoHalves> denoised = {}; // what a denoiser made of the same renders, in the same order
+    std::vector<TwoHalves> denoised = {}; // the same renders denoised, in the same order
     std::vector<Image> others = {};       // further gathered pictures
 };
 
 struct FinishedPicture {
     Image image;
-    Values kept;                          // of R, G and B: 1 as gathered, 0 as the rays say
-    ErrorEstimate error;                  // of R, G and B
-    LensMistakes mistakes;                // of R, G and B
+    Values kept;                          // for R, G and B: 1 as gathered, 0 as the rays
+    ErrorEstimate error;                  // for R, G and B
+    LensMistakes mistakes;                // for R, G and B
     std::vector<std::string> as_gathered; // names of light channels that the renders lack
 };
 
-// Throws Error where there are no two halves, or the gathered picture has no R, G and B that all renders have.
+// Throws Error if there are not two halves, or the gathered picture lacks R, G and B that all renders have.
 FinishedPicture finish_picture(PictureToFinish picture, Progress &progress);
 
 } // namespace sparselens

@@ -1,5 +1,5 @@
-// Loops over all pixels are compiled for several processors; none contracts products and sums, so all give the same bits. Not under
-// ThreadSanitizer, as the loader chooses among them before that has begun.
+// Compiles loops over all pixels for several processors. None contracts products and sums, so all give the same bits.
+// It is off under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has started.
 #pragma once
 
 #ifdef __SANITIZE_THREAD__

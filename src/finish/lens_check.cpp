@@ -13,24 +13,24 @@ namespace {
 
 enum Change : std::size_t { gain, across, downwards, changes };
 
-// Weighted sums over the pixels of a block: of a change squared, and times the difference of each render.
+// Weighted sums over the pixels of a block: the square of a change, and its product with the difference of each render.
 struct Fit {
     double square = 0;
     std::array<double, 2> product{0, 0};
 };
 struct Sums {
     std::array<Fit, changes> fits;
-    double differences = 0; // of both renders, multiplied
-    double noise = 0;       // of both renders, squared difference
+    double differences = 0; // product of the differences of both renders
+    double noise = 0;       // squared difference between the renders
 };
 
-// What each change makes of a pixel that is not at the border.
+// The value of each change at a pixel that is not at the border.
 std::array<double, changes> changed(const Values &plane, std::size_t i, std::size_t width) {
     return {double(plane[i]), double(plane[i + 1] - plane[i - 1]) / 2,
             double(plane[i + width] - plane[i - width]) / 2};
 }
 
-// Slopes beside a lamp are as bright as it is.
+// The brightest of a pixel and its neighbours, because slopes beside a lamp are as large as the lamp is bright.
 float brightest_around(const Colours &colours, std::size_t i, std::size_t width) {
     float brightest = brightness(colours, i);
     for (const std::size_t j : {i - 1, i + 1, i - width, i + width})
@@ -62,15 +62,15 @@ Sums sums_of(const LayerToFinish &layer, const Imath::Box2i &box) {
     return sums;
 }
 
-// How much of a change each render shows, and its share of what both differ by.
+// How much of a change each render shows, and the change's share of their common difference from the gathered picture.
 struct Told {
     std::array<double, 2> amounts{0, 0};
     double share = 0;
     double mean() const { return (amounts[0] + amounts[1]) / 2; }
 };
 
-// A mistake is the same everywhere; what a gathered picture is wrong in is not. So blocks count by what the change leaves of
-// their differences: the fewer, the more.
+// A mistake is the same everywhere; the errors of a gathered picture are not. So blocks count by how little difference
+// remains after the change.
 Told fitted(const std::vector<Sums> &blocks, Change change) {
     double noise = 0;
     for (const Sums &block : blocks) noise += block.noise;
@@ -96,7 +96,7 @@ Told fitted(const std::vector<Sums> &blocks, Change change) {
     return told;
 }
 
-// How much of the change the renders agree on; nothing where they do not, where it is small, or where it explains little.
+// The amount of the change if the renders agree on it; empty if they do not, if it is small, or if it explains little.
 std::optional<double> told(const std::vector<Sums> &blocks, Change change, double least) {
     const Told found = fitted(blocks, change);
     const double mean = found.mean();
@@ -110,7 +110,7 @@ std::optional<double> told(const std::vector<Sums> &blocks, Change change, doubl
 
 LensMistakes check_lens(const LayerToFinish &layer) {
     if (layer.grid.width() < 3 || layer.grid.height() < 3) return {};
-    // Not the border, whose pixels have no neighbours.
+    // Leaves out the border, whose pixels lack neighbours.
     const Tiles tiles({Imath::V2i(1, 1), Imath::V2i(layer.grid.width() - 2, layer.grid.height() - 2)},
                       FinishTuning::mistake_block_px);
     std::vector<Sums> sums(tiles.count());
@@ -118,7 +118,7 @@ LensMistakes check_lens(const LayerToFinish &layer) {
     LensMistakes found;
     if (const auto more = told(sums, gain, FinishTuning::mistake_brightness); more && *more > -1) {
         found.brightness = 1 / (1 + *more);
-        return found; // which leaves no slopes to tell from those of a picture that lies beside the other
+        return found; // slopes then cannot show whether the picture is shifted
     }
     found.right = told(sums, across, FinishTuning::mistake_shift);
     found.down = told(sums, downwards, FinishTuning::mistake_shift);

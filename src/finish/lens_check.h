@@ -1,14 +1,15 @@
-// Whether the rays and the gathered picture differ as a mistake would make them: another exposure, or a picture that lies beside the
-// other. Finishing would blur over it.
+// Checks whether the rays and the gathered picture differ as by a mistake: another exposure, or a shifted picture.
+// Finishing would blur over it.
 //
-// The difference of each render from the gathered picture is fitted by what the mistake would change: the picture itself, or its
-// slope across or down. The product of the two fits holds no noise of the renders, and its share of the product of the two
-// differences says how much of them the mistake explains. Blocks that it explains badly count little, so that
-// light that a gathered picture lacks is no exposure.
+// The difference of each render from the gathered picture is fitted by the change that the mistake would make: the
+// picture itself, or its slope across or down. The product of the two fits holds no noise of the renders. Its share of
+// the product of the two differences says how much of them the mistake explains. Blocks that it explains badly count
+// little, so that light that is missing in a gathered picture is not taken for exposure.
 //
-// Another radius, focus or shape of the lens cannot be told from what gathered pictures are wrong in anyway. Fitted in the same way by
-// pictures that are gathered with 5 % more radius, 3 % more focus distance or six blades, good pictures of eleven scenes show up to
-// .9, .75 and .9 of such a mistake, and of lamps more. So what headers say is compared (lens_headers.h).
+// Another radius, focus or shape of the lens cannot be distinguished from the usual errors of gathered pictures. Fitted
+// in the same way by pictures that are gathered with 5 % more radius, 3 % more focus distance or six blades, good
+// pictures of eleven scenes show up to .9, .75 and .9 of such a mistake, and more with lamps. So the headers are
+// compared instead (lens_headers.h).
 #pragma once
 
 #include "finish/finish.h"
@@ -19,8 +20,8 @@
 namespace sparselens {
 
 struct LensMistakes {
-    std::optional<double> brightness;  // that of the gathered picture, over that of the rays
-    std::optional<double> right, down; // how far the gathered picture lies from the rays', pixels
+    std::optional<double> brightness;  // of the gathered picture, relative to the rays
+    std::optional<double> right, down; // offset of the gathered picture from the rays', pixels
 
     std::vector<std::string> warnings() const;
 };

@@ -1,5 +1,4 @@
-// Whether a gathered picture and a render were made through the same lens, as their headers say. What a header does not name is
-// not compared.
+// Compares the lenses of a gathered picture and a render by their headers. Values that a header lacks are not compared.
 #pragma once
 
 #include "view/camera.h"
@@ -9,8 +8,8 @@
 
 namespace sparselens {
 
-// What differs, in words: the aperture's radius, its blades, their rotation, its squeeze, and the focus distance. Blades are
-// compared where both headers name them, 0 for none.
+// The differences, in words: the aperture's radius, its blades, their rotation, its squeeze, and the focus distance.
+// Blades are compared if both headers name them, 0 for none.
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render);
 
 } // namespace sparselens

@@ -11,7 +11,7 @@ namespace {
 // Keeps the prior above 0 where the guide is black.
 constexpr float least_square = 1e-4f;
 
-// `of(i)` for each pixel, averaged over soft windows around cells.
+// The mean of `of(i)` over soft windows around cells.
 template <typename Of>
 Values averaged(const Cells &cells, int radius, const Of &of) {
     Values means(cells.grid().size(), 0.0f);

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t classes = trust_classes;
 
-// Neighbours in the table are alike, so each class borrows from them.
+// Neighbouring classes of the table are alike, so each class borrows from them.
 void soften(ClassTable &table) {
     constexpr double side = 0.21, middle = 1 - 2 * side; // a Gaussian of 0.7 classes
     const auto along = [&](std::size_t step, std::size_t other) {

@@ -1,4 +1,5 @@
-// The share of a candidate that is believed in each class of cells, from what both renders say of all cells of that class.
+// The share of a candidate that is believed in each class of cells, from the evidence of both renders in all cells of
+// the class.
 #pragma once
 
 #include "finish/tuning.h"
@@ -16,15 +17,15 @@ using Shares = std::array<float, table_size>;
 
 // Sums over the cells of each class, in one block of the picture.
 struct ClassSums {
-    ClassTable answers{};  // what the test confirms of the change
-    ClassTable energies{}; // what there is to confirm
-    ClassTable unseen{};   // variance of the answers, beside how blocks differ
+    ClassTable answers{};  // the part of the change that the test confirms
+    ClassTable energies{}; // energy of the change, plus the cost of its noise
+    ClassTable unseen{};   // variance of the answers, in addition to that between blocks
 };
 
-// The share that fits the answers best, drawn towards 0 by its own variance, as blocks differ (W. James, C. Stein, 1961).
+// The share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961).
 Shares shares_of(std::vector<ClassSums> blocks);
 
-// Between the middles of classes, linear.
+// Interpolates linearly between the middles of classes.
 inline float share_at(const Shares &shares, float across, float down) {
     constexpr auto last = float(trust_classes - 1);
     const float i = std::clamp(across - 0.5f, 0.0f, last), j = std::clamp(down - 0.5f, 0.0f, last);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int reach = FinishTuning::similar_reach;
 constexpr int rows = 16, columns = 64; // of a tile
-constexpr int beside = reach + 1;      // what is loaded on each side of it
+constexpr int beside = reach + 1;      // pixels loaded on each side of it
 constexpr int stride = columns + 2 * beside, size = (rows + 2 * beside) * stride;
 constexpr std::size_t most_channels = 3;
 
@@ -24,12 +24,12 @@ Colours tone_mapped_of(const Colours &guide) {
     return mapped;
 }
 
-// 1 where two patches are as alike as noise lets them be, falling to 0. `difference`: squared, mean of the patch.
+// 1 if two patches are as alike as noise allows, falling to 0. `difference`: squared, the mean over the patch.
 [[gnu::always_inline]] inline float likeness(float difference) {
     constexpr float noise = FinishTuning::similar_noise;
     const float excess = positive(difference - 2 * noise) / (2 * noise);
     const float left = positive(1 - excess / 4);
-    return left * left * left; // close to exp(-excess), and 0 from 4 on
+    return left * left * left; // close to exp(-excess); 0 from 4 on
 }
 
 using Plane = std::array<float, size>;
@@ -37,18 +37,18 @@ using Sums = std::array<float, std::size_t(rows *columns)>;
 
 struct Tile {
     std::size_t channels;
-    std::array<Plane, most_channels> guide;                 // beyond the picture: its border again
+    std::array<Plane, most_channels> guide;                 // beyond the picture: its border repeated
     Plane weights;                                          // beyond the picture: 0
     std::array<std::array<Plane, most_channels>, 2> rays{}; // times the weights
     Sums sum{};                                             // of likenesses, weighted
-    std::array<std::array<Sums, most_channels>, 2> means{}; // times that sum
+    std::array<std::array<Sums, most_channels>, 2> means{}; // means, multiplied by `sum`
 
     static int at(int x, int y) { return (y + beside) * stride + x + beside; }
 };
 
-using Line = std::array<float, columns + 2>; // from a pixel before the tile to one behind it
+using Line = std::array<float, columns + 2>; // from one pixel before the tile to one after it
 
-// Squared differences between the pixels of a row and those `apart` entries away.
+// Squared differences between the pixels of a row and the pixels `apart` entries away.
 [[gnu::always_inline]] inline void compare(const Tile &tile, int y, int apart, Line &line) {
     line.fill(0);
     for (std::size_t c = 0; c < tile.channels; ++c) {

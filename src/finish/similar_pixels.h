@@ -1,5 +1,5 @@
-// Means of rays over similar pixels nearby (non-local means: A. Buades, B. Coll, J. Morel, 2005). The guide says which
-// pixels are similar, so the means are linear in the rays. They follow what the guide shows at edges of any form.
+// Means of rays over similar pixels nearby (non-local means: A. Buades, B. Coll, J. Morel, 2005). The guide decides
+// which pixels are similar, so the means are linear in the rays. They follow edges of any form that the guide shows.
 #pragma once
 
 #include "base/grid.h"
@@ -7,7 +7,7 @@
 
 namespace sparselens {
 
-// Of both renders. `guide` and the renders have the same channels.
+// The means for both renders. `guide` and the renders have the same channels.
 Halves means_of_similar(const Halves &rays, const Colours &guide, const Grid &grid);
 
 } // namespace sparselens

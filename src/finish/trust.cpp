@@ -13,7 +13,7 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t grain = 1 << 14; // cells that a thread takes at once
-constexpr float least_energy = 1e-9f;  // squared values: below what a picture shows
+constexpr float least_energy = 1e-9f;  // squared values: less than a picture shows
 constexpr float largest_energy_ratio = 30, largest_confirmation = 50; // a logarithm; standard deviations
 
 template <typename Task>
@@ -26,7 +26,7 @@ void for_cells(const Grid &grid, const Task &task) {
 constexpr float area(int radius) { return float((2 * radius + 1) * (2 * radius + 1)); }
 constexpr float outer = area(FinishTuning::ring_outer), inner = area(FinishTuning::ring_inner);
 
-// The sum over the ring; nearly, at the border of the picture.
+// Replaces values by their sums over the ring, which are approximate at the border of the picture.
 void ring_sum(Values &values, const Grid &grid) {
     Values near = values;
     box_mean(values, grid, FinishTuning::ring_outer);
@@ -34,14 +34,15 @@ void ring_sum(Values &values, const Grid &grid) {
     for_cells(grid, [&](std::size_t i) { values[i] = outer * values[i] - inner * near[i]; });
 }
 
-// The two measures that make a cell's class, of each picture: a logarithm and standard deviations, later places among classes.
+// The two measures that give a cell's class, for each picture: a logarithm and standard deviations, later places among
+// classes.
 struct Measures {
     std::array<Values, 3> energy_ratio, confirmed;
 };
 
 std::size_t class_at(float place) { return std::min(std::size_t(place), trust_classes - 1); }
 
-// Energy over noise, as logarithms. `noise`: of both renders, squared difference.
+// Logarithms of energy over noise. `noise`: the squared difference of both renders.
 std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid,
                                     const std::array<double, 2> &samples) {
     const auto [n, m] = samples;
@@ -59,7 +60,8 @@ std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, con
     return ratios;
 }
 
-// How many standard deviations of what the tests leave in the ring the sum is that they confirm: each test, and both together.
+// The confirmed sum in the ring, in standard deviations of the rest that the tests leave: for each test, and for both
+// together.
 std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
                                     const std::array<double, 2> &samples) {
     std::array<Values, 2> sums = cells.confirmed, variances = cells.left;
@@ -81,7 +83,7 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
     return found;
 }
 
-// The share of each picture's change that is believed, cell by cell.
+// The share of each picture's change that is believed, for each cell.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                               const std::array<double, 2> &samples) {
     const Grid &grid = cells.grid();
@@ -118,7 +120,8 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                     const std::size_t cell = class_at(measures.energy_ratio[k][i]) * trust_classes +
                                              class_at(measures.confirmed[k][i]);
                     const double count = pixels * testing[k];
-                    // The part of a change that is noise, as the changes of both renders differ, costs more.
+                    // The part of a change that is noise, as shown by the difference between the renders' changes,
+                    // costs more.
                     const double noise = double(evidence.spread[i]) * of_both / samples[k];
                     sums[b].answers[cell] += count * double(evidence.confirmed[k][i]);
                     sums[b].energies[cell] +=

@@ -25,8 +25,8 @@ FOR_PROCESSORS void mean_of_three(const std::vector<Lanes> &line, std::vector<La
     }
 }
 
-// The mean of each entry and of `radius` entries on each side of it. The sums are of double precision, because a lamp of
-// radiance 1e4 that enters and leaves a running sum must leave nothing behind.
+// The mean of each entry and of `radius` entries on each side of it. The sums are in double precision, because a lamp
+// of radiance 1e4 that enters and leaves a running sum must leave no error behind.
 FOR_PROCESSORS void mean_along(const std::vector<Lanes> &line, std::vector<Lanes> &result,
                                std::size_t radius) {
     const std::size_t length = line.size();
