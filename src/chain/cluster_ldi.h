@@ -14,7 +14,7 @@ namespace sparselens {
 
 struct ClusterRequest {
     std::vector<std::string> inputs = {}, depth_files = {}; // files; the latter one per input or none
-    std::string recolor = {};                               // a flat picture with their colours; may be empty
+    std::string recolor = {};                               // a flat picture with their colours; or empty
     DepthOptions depth = {};
     ColourOptions colour = {};        // how the flat picture's colours are read
     const FlatFile *beauty = nullptr; // the same picture in memory, with linear colours

@@ -14,7 +14,7 @@ namespace {
 
 std::string six_digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
 
-// Where the error is below what the references can tell, what it is better than.
+// If the error is too small for the references to show, a limit that it stays below.
 std::string decibels_text(const ErrorWithoutNoise &error) {
     if (error.is_told()) return six_digits(error.decibels());
     const double bound = error.at_least();
@@ -23,7 +23,7 @@ std::string decibels_text(const ErrorWithoutNoise &error) {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers keep all their digits; what is not finite is written as null, since JSON has no infinity.
+// Numbers keep all their digits. Values that are not finite become null, because JSON has no infinity.
 Json json_of(const ErrorFigures &figures) {
     Json json;
     for (const Figure &figure : figure_table) json[figure.name] = figures.*figure.value;

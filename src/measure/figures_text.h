@@ -9,14 +9,14 @@
 namespace sparselens {
 
 struct NamedFigures {
-    std::string name; // that of the region
+    std::string name; // the region's name
     ErrorFigures figures;
 };
 
-// One object: the figures of the whole picture by name, "flip" among them where it was measured, "psnr_without_noise" (null: too small to tell),
-// "mse_without_noise" and "mse_deviation" where there are two references, "pixels", "nonfinite": {"image": , "reference": } and, where
-// there are regions, "regions": {NAME: the same for the region}. A figure that is infinite or unknown is null; other
-// numbers keep all their digits.
+// One object with the figures of the whole picture by name: "flip" if it was measured; with two references
+// "psnr_without_noise" (null: too small to measure), "mse_without_noise" and "mse_deviation"; "pixels"; "nonfinite":
+// {"image": , "reference": }; and, if there are regions, "regions": {NAME: the same for the region}. A figure that is
+// infinite or unknown is null; other numbers keep all their digits.
 std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigures> regions);
 
 // One row per figure, with a column for the whole picture and one for each region.

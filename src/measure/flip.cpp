@@ -18,7 +18,7 @@ using Kernel = std::vector<float>; // of odd length, centred
 
 constexpr std::size_t rows_a_task = 16;
 
-// `weigh`: the weight at so many pixels from the centre.
+// `weigh` returns the weight at a distance from the centre, in pixels.
 template <typename Weigh>
 Kernel kernel_of(int reach, const Weigh &weigh) {
     Kernel kernel;
@@ -37,7 +37,7 @@ double sum_of(const Kernel &kernel) {
     return sum;
 }
 
-// Positive weights add up to 1, and negative ones to -1.
+// Scales the positive weights to a sum of 1, and the negative ones to -1.
 Kernel balanced(Kernel kernel) {
     double positive = 0, negative = 0;
     for (const float w : kernel) (w > 0 ? positive : negative) += w;
@@ -45,7 +45,7 @@ Kernel balanced(Kernel kernel) {
     return kernel;
 }
 
-// A plane filtered along both axes.
+// Filters a plane along both axes.
 class Filter {
 public:
     explicit Filter(const Grid &grid)
@@ -82,7 +82,7 @@ private:
     std::size_t width_, height_;
 };
 
-// A Gaussian of squared distance is the product of one along x and one along y: each takes the root of its factor.
+// A two-dimensional Gaussian is the product of one along x and one along y: each gets the root of its factor.
 Kernel gaussian(const FlipGaussian &weight) {
     return kernel_of(flip_filter_reach(), [&](double x) {
         const double degrees = x / flip_pixels_per_degree;
@@ -117,7 +117,7 @@ struct Seen {
     Plane edge, point;
 };
 
-void each_row(const Grid &grid, const auto &work) { // work(i) for each pixel
+void each_row(const Grid &grid, const auto &work) { // calls work(i) for each pixel
     const std::size_t width = std::size_t(grid.width());
     parallel_ranges(std::size_t(grid.height()), rows_a_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * width; i < end * width; ++i) work(i);
@@ -152,11 +152,11 @@ Seen seen(const std::array<Plane, 3> &rgb, const Grid &grid, const Kernels &kern
     return {std::move(opponent), length(kernels.edge), length(kernels.point)};
 }
 
-using Shown = float (*)(float value, double exposure); // in [0, 1]
+using Shown = float (*)(float value, double exposure); // returns a value in [0, 1]
 
 float as_it_is(float value, double) { return std::clamp(value, 0.0f, 1.0f); }
 
-// The curve of a film, as K. Narkowicz fits that of ACES, for values of which 0.6 was meant by 1.
+// The tone curve of film: K. Narkowicz's fit of ACES, for values scaled so that 1 stands for the fit's 0.6.
 constexpr std::array<double, 6> film{0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
 
 float tone_mapped_by_film(float value, double exposure) {
@@ -165,7 +165,7 @@ float tone_mapped_by_film(float value, double exposure) {
     return float(std::clamp(shown, 0.0, 1.0));
 }
 
-// Where either picture has a channel that is not finite.
+// The pixels in which either picture has a channel that is not finite.
 std::vector<bool> not_finite(const Image &a, const Image &b) {
     std::vector<bool> bad(a.windows.pixels());
     for (const Image *image : {&a, &b})
@@ -183,7 +183,7 @@ public:
         : grid_(image.windows.width(), image.windows.height()), image_(image), reference_(reference),
           bad_(not_finite(image, reference)) {}
 
-    // The larger of the map and that of the pictures as shown.
+    // Replaces the map by the larger of itself and the map of the pictures shown at this exposure.
     void add(Shown shown, double exposure, std::vector<float> &map) const {
         const Seen a = seen(shown_planes(image_, shown, exposure), grid_, kernels_),
                    b = seen(shown_planes(reference_, shown, exposure), grid_, kernels_);
@@ -223,7 +223,7 @@ std::vector<double> flip_exposures(const Image &reference) {
         if (std::isfinite(luminance)) luminances.push_back(luminance);
     }
     if (luminances.empty()) return {1};
-    // What the film shows as 0.85.
+    // the value that the film curve shows as 0.85 is the brightest allowed
     constexpr double bright = 0.85;
     const double a = film[0] - bright * film[3], b = film[1] - bright * film[4],
                  c = film[2] - bright * film[5];

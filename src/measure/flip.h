@@ -1,8 +1,9 @@
-// FLIP: how much two pictures differ to somebody who flips between them on a screen, in each pixel, from 0 to 1.
+// FLIP: how different two pictures look to a person who flips between them on a screen, in each pixel, from 0 to 1.
 //
-// P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. Fairchild, "FLIP: A Difference Evaluator for
-// Alternating Images", 2020. P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in Rendered High
-// Dynamic Range Images", 2021. At 67 pixels per degree (flip_terms.h); beyond the edge a picture goes on as at its edge.
+// P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. Fairchild, "FLIP: A Difference Evaluator
+// for Alternating Images", 2020. P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in
+// Rendered High Dynamic Range Images", 2021. It assumes 67 pixels per degree (flip_terms.h); beyond its border a
+// picture continues like its edge.
 #pragma once
 
 #include "../base/image.h"
@@ -15,20 +16,21 @@
 namespace sparselens {
 
 enum class FlipRange {
-    ldr, // values are shown as they are, in [0, 1]
+    ldr, // values are shown unchanged, in [0, 1]
     hdr // the worst of several exposures: from where the reference's brightest pixel is no longer too bright to where its median
         // is, tone-mapped as films are (ACES)
 };
 
-// R, G and B (linear, Rec. 709 primaries) of pictures as rgba_over() (image_error.h) returns them, of the same data window.
-// Negative values are black. NaN where a channel of either picture is not finite; its neighbours see black there in both.
+// R, G and B (linear, Rec. 709 primaries) of pictures as rgba_over() (image_error.h) returns them, with the same data
+// window. Negative values are black. A pixel is NaN if a channel of either picture is not finite; for its neighbours it
+// is black in both.
 std::vector<float> flip_map(const Image &image, const Image &reference, FlipRange range);
 
-// The means of a map over all pixels, then over those of each region (image_error()). Of no pixels: NaN.
+// The means of a map over all pixels, then over the pixels of each region (image_error()). Without pixels: NaN.
 std::vector<double> flip_means(std::span<const float> map, std::span<const std::uint8_t> region_bits = {},
                                std::size_t regions = 0);
 
-// The exposures of FlipRange::hdr, as factors, of linear RGB.
+// The exposures of FlipRange::hdr, as factors on linear RGB.
 std::vector<double> flip_exposures(const Image &reference);
 
 } // namespace sparselens

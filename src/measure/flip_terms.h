@@ -1,5 +1,5 @@
-// What the difference evaluator FLIP (flip.h) is made of: its colour spaces, its filters and its two errors. Constants are those of
-// the paper. Shared by flip.cpp and its slow reference; not for use elsewhere.
+// The parts of the difference evaluator FLIP (flip.h): its colour spaces, its filters and its two errors. Constants are
+// those of the paper. flip.cpp and its slow reference share them; not for use elsewhere.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -11,10 +11,10 @@
 
 namespace sparselens {
 
-// At 0.7 m from a screen of 3840 pixels that is 0.7 m wide.
+// For a viewer at 0.7 m from a screen that is 3840 pixels and 0.7 m wide.
 inline constexpr double flip_pixels_per_degree = 3840 * 3.14159265358979323846 / 180;
 
-// Linear Rec. 709 and CIE XYZ, relative to the white of D65: 1, 1, 1 for both.
+// Converts linear Rec. 709 to CIE XYZ, relative to the white of D65, so that white is 1, 1, 1 in both.
 inline Imath::V3d flip_xyz(const Imath::V3d &rgb) {
     const auto weighed = [&](double r, double g, double b) { return r * rgb.x + g * rgb.y + b * rgb.z; };
     const double x = weighed(0.4123907993, 0.3575843394, 0.1804807884),
@@ -29,7 +29,7 @@ inline Imath::V3d flip_rgb(const Imath::V3d &xyz) {
             0.0556300797 * x - 0.2039769589 * y + 1.0569715142 * z};
 }
 
-// YCxCz: L*a*b* without its cube roots, in which the eye's filters are linear. Luma, red-green, blue-yellow.
+// YCxCz: L*a*b* without its cube roots, a space in which the eye's filters are linear. Luma, red-green, blue-yellow.
 inline Imath::V3d flip_opponent(const Imath::V3d &rgb) {
     const Imath::V3d w = flip_xyz(rgb);
     return {116 * w.y - 16, 500 * (w.x - w.y), 200 * (w.y - w.z)};
@@ -39,7 +39,7 @@ inline Imath::V3d flip_rgb_of_opponent(const Imath::V3d &opponent) {
     return flip_rgb({y + opponent.y / 500, y, y - opponent.z / 200});
 }
 
-// L*a*b* of linear RGB in [0, 1], with a and b less where it is dark (Hunt's effect).
+// L*a*b* of linear RGB in [0, 1]; a and b are reduced in the dark (Hunt's effect).
 inline Imath::V3d flip_lab(const Imath::V3d &rgb) {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -55,14 +55,14 @@ inline double flip_distance(const Imath::V3d &a, const Imath::V3d &b) {
     return std::pow(std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z), 0.7);
 }
 
-// [0, 1], of which all up to 0.4 of the largest distance, that of green and blue, takes 0.95.
+// [0, 1]. Distances up to 0.4 of the largest one (that between green and blue) take up 0.95 of the range.
 inline double flip_colour_error(const Imath::V3d &a, const Imath::V3d &b) {
     static const double largest = flip_distance(flip_lab({0, 1, 0}), flip_lab({0, 0, 1}));
     const double distance = flip_distance(a, b), knee = 0.4 * largest;
     return distance < knee ? 0.95 * distance / knee : 0.95 + 0.05 * (distance - knee) / (largest - knee);
 }
 
-// From how much an edge and a point stand out in the one picture and in the other.
+// How much an edge and a point stand out in a picture; the error compares both pictures.
 struct FlipFeatures {
     double edge = 0, point = 0;
 };
@@ -70,11 +70,11 @@ inline double flip_feature_error(const FlipFeatures &a, const FlipFeatures &b) {
     return std::sqrt(std::max(std::abs(a.edge - b.edge), std::abs(a.point - b.point)) / std::sqrt(2.0));
 }
 
-// Where a feature comes or goes, colours differ the more.
+// Differences of features amplify the difference of colours.
 inline double flip_error(double colour, double feature) { return std::pow(colour, 1 - feature); }
 
-// The contrast sensitivity of an opponent channel, seen from a distance: the sum of two Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b)
-// of x degrees.
+// The contrast sensitivity of an opponent channel at a viewing distance: a sum of two Gaussians a sqrt(pi / b)
+// exp(-pi^2 x^2 / b), with x in degrees.
 struct FlipGaussian {
     double a, b;
     double operator()(double squared_degrees) const {
@@ -85,7 +85,7 @@ struct FlipGaussian {
 inline constexpr FlipGaussian flip_luma{1, 0.0047}, flip_red_green{1, 0.0053}, flip_blue_yellow{34.1, 0.04},
     flip_blue_yellow_wide{13.5, 0.025};
 
-// In pixels; each reaches three standard deviations of the widest.
+// In pixels; each filter reaches three standard deviations of the widest one.
 inline int flip_filter_reach() {
     return int(std::ceil(3 * std::sqrt(0.04 / 2) / 3.14159265358979323846 * flip_pixels_per_degree));
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t colours = 3, alpha = 3, rgba = 4;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-// What a row adds to the figures of a region. In double, rows summed in order: the same at any thread count.
+// Contribution of a row to a region's figures. Sums are in double, rows in order: the same at any thread count.
 struct Sums {
     double squared = 0, squared_tonemapped = 0, relative = 0, symmetric = 0, ssim = 0;
     double max = 0, max_alpha = 0;
@@ -100,17 +100,17 @@ struct PixelSets {
     }
 };
 
-using RowSums = std::vector<Sums>; // one a pixel set
+using RowSums = std::vector<Sums>; // one per pixel set
 
-// What a block of the picture adds to one pixel set, of tone-mapped values.
+// The contribution of a block of the picture to one pixel set, from tone-mapped values.
 struct Block {
     double squared = 0;
     std::size_t pixels = 0;
 };
 constexpr std::size_t block_size = 8;
-using Blocks = std::vector<std::vector<Block>>; // of each pixel set
+using Blocks = std::vector<std::vector<Block>>; // [pixel set][block]
 
-// The worst 1 % of the blocks; of none, NaN.
+// The worst 1 % of the blocks; NaN if there are none.
 struct Worst {
     double mean_square;
     std::size_t block; // the worst of them

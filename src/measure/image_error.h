@@ -1,4 +1,4 @@
-// How far a picture is from its reference: the figures of docs/design.md section 6, over R, G and B.
+// The distance of a picture from its reference: the figures of docs/design.md section 6, over R, G and B.
 //
 // Let a be the picture and b the reference. Means are taken over the three channels of the compared pixels:
 //   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite where a = b
@@ -32,11 +32,11 @@ namespace sparselens {
 
 struct ErrorFigures {
     double psnr, psnr_tonemapped, psnr_worst, relmse, smape, ssim, p99, max, max_alpha;
-    std::size_t pixels = 0; // compared
+    std::size_t pixels = 0; // compared pixels
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
     Imath::V2i worst_block{0, 0}; // the upper left pixel, from the corner of the data window
     std::optional<double> flip = {};
-    std::optional<ErrorWithoutNoise> without_noise = {}; // where there are two references
+    std::optional<ErrorWithoutNoise> without_noise = {}; // if there are two references
 };
 
 struct Figure {
@@ -56,7 +56,7 @@ inline constexpr std::array<Figure, 9> figure_table{{{"psnr", &ErrorFigures::psn
 
 // R, G, B and A of `image` over the data window of `target`; the corners of the display windows coincide. Pixels
 // outside `image` are transparent black. Without a channel A, the pixels inside have A = 1.
-// Throws Error, naming `file`, where a channel R, G or B is missing or the display window has another size.
+// Throws Error, naming `file`, if a channel R, G or B is missing or the display window has another size.
 Image rgba_over(const Image &image, const Windows &target, const std::string &file);
 
 // The figures over all pixels, then over the pixels of each of `regions` regions: pixel i belongs to region r < 8 if

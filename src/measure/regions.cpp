@@ -12,13 +12,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// lower_envelope: result[p] = min over q of f[q] + (spacing (p - q))^2, in linear time. Where f[q] = -r^2, a
-// result
-// <= 0 says that p lies within r of some q, whatever the sizes of the discs.
+// lower_envelope: result[p] = min over q of f[q] + (spacing (p - q))^2, in linear time. If f[q] = -r^2, a result <= 0
+// says that p lies within r of some q, whatever the sizes of the discs.
 // P. Felzenszwalb, D. Huttenlocher, "Distance transforms of sampled functions", 2012.
 struct Envelope {
     std::vector<std::size_t> vertex; // the parabolas of the envelope, from the left
-    std::vector<double> start;       // where each begins to be the lowest
+    std::vector<double> start;       // where each begins to be the lowest one
 
     void add(std::span<const double> f, std::size_t q, double spacing) {
         if (f[q] == infinity) return;
@@ -52,9 +51,9 @@ void lower_envelope(std::span<const double> f, double spacing, std::span<double>
     }
 }
 
-// -r^2 at both pixels of each jump, r their reach; infinity elsewhere.
+// -r^2 at both pixels of each jump, where r is their reach; infinity elsewhere.
 std::vector<double> jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
-    // A disc that covers the picture is as large as is needed; larger ones would only cost digits.
+    // A disc that covers the picture is large enough; larger ones would only cost precision.
     const double largest = grid.width() + grid.height() / pixel_aspect;
     std::vector<double> reach(c.size(), infinity);
     const auto mark = [&](std::size_t i, std::size_t j) {
@@ -72,7 +71,7 @@ std::vector<double> jumps(std::span<const float> c, const Grid &grid, double pix
     return reach;
 }
 
-// Where the discs around the jumps lie: values <= 0.
+// The discs around the jumps: values <= 0 lie inside.
 std::vector<double> grown_jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
     std::vector<double> field = jumps(c, grid, pixel_aspect);
     const std::size_t width = std::size_t(grid.width()), height = std::size_t(grid.height());

@@ -1,4 +1,4 @@
-// The three regions of a picture for which errors are given separately: docs/design.md section 6.
+// The three regions of a picture for which errors are reported separately: docs/design.md section 6.
 //
 // Each is a set of pixels, given by the signed CoC radius c (pixels) of the front sample of every pixel (deep/front_samples.h):
 //   in_focus     |c| < 1
@@ -26,7 +26,7 @@ enum RegionBit : std::uint8_t { in_focus_bit = 1, blurred_bit = 2, silhouettes_b
 std::vector<std::uint8_t> region_bits(std::span<const float> c, int width, int height,
                                       double pixel_aspect = 1);
 
-// The bits over another data window; the corners of the display windows coincide. A pixel outside `from` belongs to no
+// The bits over another data window; the corners of the display windows coincide. Pixels outside `from` belong to no
 // region.
 std::vector<std::uint8_t> bits_over(std::span<const std::uint8_t> bits, const Windows &from,
                                     const Windows &target);

@@ -12,7 +12,7 @@ namespace sparselens {
 
 namespace {
 
-// Weighted sums of a, b, a^2, b^2, ab. In double: a variance is the difference of two nearly equal sums.
+// Weighted sums of a, b, a^2, b^2, ab, in double, because a variance is the difference of two nearly equal sums.
 constexpr std::size_t moments = 5;
 using MomentRows = std::array<std::vector<double>, moments>;
 

@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// One value per window, in rows from the top left; 1 where the pictures are equal.
+// One value per window, in rows from the top left; 1 if the pictures are equal.
 struct SsimMap {
     int width = 0, height = 0;
     int centre_x = 0, centre_y = 0; // window (x, y) is centred on pixel (x + centre_x, y + centre_y)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t colours = 3;
 
-// R, G and B of each pixel after each other.
+// The values R, G and B of each pixel in succession.
 std::vector<float> tone_mapped_colours(const Image &image) {
     std::vector<float> values(image.windows.pixels() * colours);
     parallel_ranges(image.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {

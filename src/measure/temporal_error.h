@@ -1,8 +1,10 @@
-// How steady a sequence of pictures is, and how well its changes follow those of a reference sequence.
+// How steady a sequence of pictures is, and how well its changes match those of a reference sequence.
 //
-// Let v(t) be a tone-mapped value (tone_map.h) of frame t. Motion that is smooth changes v evenly, and what pops or
-// sparkles does not, so steadiness is measured by second differences over time, |v(t - 1) - 2 v(t) + v(t + 1)|. Those of a
-// pixel are the largest over R, G, B and all frames. Changes are compared by first differences, v(t) - v(t - 1).
+// Let v(t) be a tone-mapped value (tone_map.h) of frame t. Smooth motion changes v evenly; popping and sparkling do
+// not. So steadiness is measured by second differences over time,
+// v(t - 1) - 2 v(t) + v(t + 1)
+// . The second difference of a pixel is the largest over R, G, B and all frames. Changes are compared by first
+// differences, v(t) - v(t - 1).
 #pragma once
 
 #include "../base/image.h"
@@ -20,7 +22,7 @@ inline constexpr std::array temporal_thresholds{0.02, 0.05};
 
 struct Steadiness {
     std::array<std::size_t, temporal_thresholds.size()> above{}; // pixels with larger second differences
-    double largest = 0;                                          // of all
+    double largest = 0;                                          // over all pixels
 };
 
 struct TemporalFigures {
@@ -28,17 +30,17 @@ struct TemporalFigures {
     std::size_t nonfinite =
         0; // pixels that are infinite or NaN in any frame of either sequence, and left out
     Steadiness image;
-    // With a reference: its own steadiness, and -10 log10 of the mean squared error of the change from frame to frame, dB;
-    // infinite where all changes are equal.
+    // With a reference: its steadiness, and -10 log10 of the mean squared error of the change from frame to frame, dB;
+    // infinite if all changes are equal.
     std::optional<Steadiness> reference;
     std::optional<double> psnr_change;
 };
 
-// Takes one frame after another; keeps no more than the last two.
+// Takes one frame after another and keeps only the last two.
 class TemporalError {
 public:
-    // Frames are as rgba_over() returns them (image_error.h), and all have one data window. `reference`: that of the same
-    // frame, in all calls or in none.
+    // Frames are as rgba_over() returns them (image_error.h), all with one data window. `reference`: the same frame of
+    // the reference sequence, in all calls or in none.
     void add(const Image &image, const Image *reference = nullptr);
     TemporalFigures figures() const;
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t colours = 3, rgba = 4;
 
-// What pixels add up to: in rows, and those in order, so that sums are the same on any number of threads.
+// Sums over pixels: first in rows, then over rows in order, so that they are the same on any number of threads.
 struct Sums {
     double products = 0, squared_noise = 0;
     std::size_t pixels = 0;
