@@ -2,7 +2,7 @@
 //
 //   light     colour and coverage: they are averaged; small bright ones are spread exactly, those near focus sharpened
 //   data      normals, positions, UV, motion, further depths: they are only averaged
-//   ids       integers, layers with names of ids (below), and the pairs of a Cryptomatte (matte.h): they are only copied
+//   ids       integers, layers with names of ids (below), and pairs of a Cryptomatte (matte.h): they are only copied
 //
 // A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y only beside X: alone it is luminance), or Z or
 // ZBack, or if its layer has a name of data (N, P, normal, uv, motion vector, ...). It holds ids if its layer is named

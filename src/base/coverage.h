@@ -1,4 +1,4 @@
-// What counts as full coverage, and what as no coverage.
+// Limits for full coverage and for no coverage.
 #pragma once
 
 namespace sparselens {

@@ -1,4 +1,4 @@
-// What a device did of the work that it was given, and what it left to the CPU.
+// The work that a device did, and the work that it left to the CPU.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace sparselens {
 
-// What happened since the report was last taken. The device chooses the unit of work: tiles or rows.
+// The work since the report was last taken. The device chooses the unit of work: tiles or rows.
 struct DeviceReport {
     std::size_t on_device = 0;
     std::size_t uploaded = 0;                       // bytes

@@ -22,8 +22,8 @@ constexpr double widest = 16; // pixels
 // Sharpening takes some of it back near the focus. Measured on the path-traced yard.
 constexpr double of_gather = 0.125;
 
-// The filter's variance, in square pixels. Cycles' Blackman-Harris filter is the window of that name, twice the width
-// across; its variance is 0.01918 of the square of that. Its Gaussian is exp(-8 (x / width)^2).
+// The filter's variance, in square pixels. Cycles' Blackman-Harris filter is the window of that name with twice the
+// width; its variance is 0.01918 of the square of the window's width. Its Gaussian is exp(-8 (x / width)^2).
 double variance(const PixelFilter &filter) {
     const double square = filter.width * filter.width;
     return filter.shape == Shape::gaussian ? square / 16 : 4 * 0.019184 * square;

@@ -3,7 +3,7 @@
 //
 // Renderers filter over more than the square of a pixel. A view at N times the size is filtered over the same number of
 // its own pixels, which is 1/N of the width in the picture. The missing filter follows from variances: the variance of
-// the whole filter, minus that of the views' filter, minus what the gather adds.
+// the whole filter, minus the variance of the views' filter, minus the variance that the gather adds.
 #pragma once
 
 #include <optional>

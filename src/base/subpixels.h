@@ -9,7 +9,7 @@
 
 namespace sparselens {
 
-// The pixels that contain those of `box` when `across` of these, across and down, become one.
+// The pixels that contain the sub-pixels of `box` if `across` of them, across and down, become one pixel.
 Imath::Box2i reduced(const Imath::Box2i &box, int across);
 
 // The sub-pixels of the pixels of a box.

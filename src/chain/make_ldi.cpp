@@ -51,7 +51,7 @@ Camera with_subpixels(Camera camera, const LdiFromViews &request) {
 constexpr std::size_t not_packed_yet = 2; // views in memory; packed ones take half
 
 // The position of a view is the given one, or else follows from worldToCamera (see position_on_lens, whose errors are
-// thrown). Its framing comes from its metadata, or else is that of the centre view.
+// thrown). Its framing comes from its metadata, or else from the centre view.
 PlacedViews open_views(const LdiFromViews &request) {
     std::vector<std::optional<Imath::V2d>> positions(request.files.size());
     std::vector<std::string> paths = request.files;

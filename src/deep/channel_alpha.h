@@ -1,6 +1,6 @@
 // Per-channel alpha: coverage that differs between the colours, as for tinted glass and coloured smoke. By the
 // conventions of OpenEXR ("Technical Introduction", channel names; "Interpreting OpenEXR Deep Pixels") AR, AG and AB
-// are the coverage of R, G and B: composited, R of what lies behind is attenuated by AR, not by A.
+// are the coverage of R, G and B: when composited, the R of samples behind is attenuated by AR, not by A.
 //
 // Which channel covers which, by the last part of its name (R of "diffuse.R"):
 //

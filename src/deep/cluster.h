@@ -5,7 +5,7 @@
 // surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples
 // behind an opaque one are dropped. Depths (as 1 / z) and position become means, weighted by what each sample shows; a
 // cluster with a volume becomes a volume. The CoC of no sample changes by more than the extent of its cluster, which is
-// R F / z of its front minus that of its back, or the range of R F / optical if that is larger.
+// R F / z of its front minus R F / z of its back, or the range of R F / optical if that is larger.
 #pragma once
 
 #include "../base/progress.h"

@@ -34,7 +34,7 @@ struct SettledEdges {
 SettledEdges settle_edge_depths(View &view);
 SettledEdges settle_edge_depths(Ldi &ldi);
 
-// What a reader notes of it.
+// The note of a reader about replaced depths.
 std::string edge_note(std::size_t settled);
 
 } // namespace sparselens

@@ -22,7 +22,7 @@ void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std
     }
 }
 
-// Ids are those of the front sample.
+// Copies ids from the front sample.
 void flatten_ids(const Ldi &ldi, std::size_t channel, std::size_t pixel, Image &out) {
     const SampleRange samples = ldi.pixel(pixel);
     out.values[channel * out.windows.pixels() + pixel] =

@@ -13,7 +13,7 @@ bool is_flat(const Ldi &ldi) {
     return ldi.z_back.empty() || ldi.z_back == ldi.z;
 }
 
-// Its pixels of depth 0 show nothing.
+// A flat view. Pixels of depth 0 show nothing.
 View flat_view(const std::string &name, const Ldi &ldi) {
     View view{name, Image(ldi.windows, ldi.channels), std::vector<float>(ldi.windows.pixels())};
     for (std::size_t p = 0; p < view.z.size(); ++p)

@@ -1,4 +1,4 @@
-// Multiplies colours by their coverage, where a file has them unpremultiplied ("straight").
+// Multiplies colours by their coverage, if a file has them unpremultiplied ("straight").
 #pragma once
 
 #include "base/image.h"

@@ -60,7 +60,7 @@ public:
         for (std::size_t k = 0; k < flat.channels.size(); ++k)
             if (is_recolored(flat.channels, k)) light_.push_back(k);
     }
-    // What the flat picture covers for channel k of the deep picture; `otherwise` if it does not say.
+    // The coverage of the flat picture for channel k of the deep picture; `otherwise` if it has none.
     double at(std::size_t k, std::size_t pixel, double otherwise) const {
         return k == npos || of_[k] == npos ? otherwise : double(flat_.plane(of_[k])[pixel]);
     }

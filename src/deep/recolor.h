@@ -1,15 +1,15 @@
 // Gives the samples of a deep picture the colours of a flat picture of the same frame: studios keep deep alpha, and one
-// flat beauty with its passes. Flattened, every channel of light is that of the flat picture again.
+// flat beauty with its passes. After flattening, every channel of light equals the flat picture's again.
 //
 // In each pixel V is a channel of the flat picture and F its coverage; D is the coverage of all samples together, and a
 // the coverage of one:
 //
-//   F agrees with D      a sample becomes V a / D: V by what the sample shows of the pixel. D stays as it is
-//   F is more            the rest of the coverage, (F - D) / (1 - D), lies at infinity behind the samples, as a sky does that the
-//                        deep picture left out; all of them share V as above, with F in the place of D
+//   F agrees with D      a sample becomes V a / D, by what it shows of the pixel. D stays as it is
+//   F is more            the rest of the coverage, (F - D) / (1 - D), becomes a sample at infinity behind the others,
+//                        for a sky that the deep picture left out; all of them share V as above, with F in place of D
 //   F is less            V a / D: the light is right, and the coverage stays
-//   there is no sample   light becomes one at infinity, of coverage F, which is 0 where the light covers nothing
-//   nothing covers       the last sample has all light
+//   there is no sample   light becomes a sample at infinity with coverage F, which is 0 if the light covers nothing
+//   nothing covers       the last sample gets all light
 //
 // If the deep picture has AR, AG and AB, they share the light that they cover, and A shares the rest. Samples behind an
 // opaque one get its colour. Depths, volumes, coverage, ids, Cryptomattes and data come from the deep picture, all

@@ -1,6 +1,7 @@
-// The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), which other samples may replace.
-// Unchanged samples use the memory of the view, because five views are most of the warp's memory. A deep view has the samples of its
-// file: pixels that hold several, or a volume, hold parts; each of the others holds one sample, as a pixel of a flat view does.
+// The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0). Other samples may
+// replace it. Unchanged samples use the memory of the view, because five views are most of the warp's memory. A deep
+// view has the samples of its file: a pixel with several samples, or with a volume, holds parts; every other pixel
+// holds one sample, as in a flat view.
 #pragma once
 
 #include "base/plane.h"

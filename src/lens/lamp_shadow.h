@@ -1,9 +1,9 @@
 // Shadows in the disc of a small lamp, cast by samples in front of the lamp.
 //
-// A lamp at x, of CoC c, lights the position q of the picture through lens point u = (q - x) / c. Through that lens point, a
-// sample at x', of CoC c', is seen at x' + c' u, and hides the lamp at q if q lies there. Its shadow in the disc is therefore
-// the sample itself, magnified m = c / (c - c') times about the lamp: q = x + m (x' - x). Both axes have the same m, whatever
-// the pixel aspect. Positions are EXR pixel coordinates, y down.
+// A lamp at x, of CoC c, lights the position q of the picture through lens point u = (q - x) / c. Through that lens
+// point, a sample at x', of CoC c', is seen at x' + c' u, and hides the lamp at q if q lies there. So its shadow in the
+// disc is the sample itself, magnified m = c / (c - c') times about the lamp: q = x + m (x' - x). Both axes have the
+// same m, whatever the pixel aspect. Positions are EXR pixel coordinates, y down.
 #pragma once
 
 #include <Imath/ImathBox.h>

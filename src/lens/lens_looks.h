@@ -18,8 +18,8 @@ struct LensLooks {
         false; // colours lose the light that is cut off; otherwise the rest counts as the whole
     // Added to the CoC of R, G and B, pixels. G has no offset: it defines where the picture is sharp.
     std::array<double, 3> chromatic_coc{0, 0, 0};
-    // The plane of focus: 1/d becomes (1/d) (1 + field_curvature rho^2) (1 + tilt.x x/F + tilt.y y/F) at a pixel x right
-    // and y up of the axis, rho half diagonals from it, F the focal length in pixels.
+    // The plane of focus: 1/d becomes (1/d) (1 + field_curvature rho^2) (1 + tilt.x x/F + tilt.y y/F) at a pixel x to
+    // the right of the axis and y above it, rho half diagonals from it, with F the focal length in pixels.
     double field_curvature = 0;
     Imath::V2d tilt{0, 0}; // tangents of its angles
     // Separates the sagittal and tangential foci. For rays that meet the lens on the line through the axis and the

@@ -30,7 +30,7 @@ struct LensSample {
 // of lens points (lens_points.h) are 8, 13, 21 ... points apart; if these steps bring p back to nearly the same place,
 // the points come in clumps. Here positions follow each other by the same step modulo a pixel. For the numbers of
 // points of final quality, up to 32 pixels of CoC, that step is the best of a thousand random ones, by the squared
-// error of what pixels see of discs (tests/lens/lens_samples_test.cpp computes it slowly), and for 384 points the best
+// error of pixels in discs (tests/lens/lens_samples_test.cpp computes it slowly), and for 384 points the best
 // of the first six of these on test scenes. It leaves 0.6 to 0.9 of the error of low_discrepancy_2d(), which all other
 // numbers of points use.
 std::vector<Imath::V2d> pixel_positions(std::size_t n);

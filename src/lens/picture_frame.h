@@ -1,4 +1,4 @@
-// Where the optical axis meets a picture, and places measured from there.
+// The optical axis in a picture, and places measured from it.
 #pragma once
 
 #include "base/image.h"

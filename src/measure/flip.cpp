@@ -223,7 +223,7 @@ std::vector<double> flip_exposures(const Image &reference) {
         if (std::isfinite(luminance)) luminances.push_back(luminance);
     }
     if (luminances.empty()) return {1};
-    // the value that the film curve shows as 0.85 is the brightest allowed
+    // The largest value that is not too bright, after the film curve.
     constexpr double bright = 0.85;
     const double a = film[0] - bright * film[3], b = film[1] - bright * film[4],
                  c = film[2] - bright * film[5];

@@ -1,18 +1,18 @@
 // The distance of a picture from its reference: the figures of docs/design.md section 6, over R, G and B.
 //
 // Let a be the picture and b the reference. Means are taken over the three channels of the compared pixels:
-//   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite where a = b
+//   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite if a = b
 //   psnr_tonemapped  the same for tone-mapped values (tone_map.h)
-//   psnr_worst       that of the worst places: of the 1 % of blocks of 8 x 8 pixels (counted from the upper left corner, at least
-//                    one) in which it is lowest; in a region a block has the pixels of that region
+//   psnr_worst       psnr_tonemapped of the worst 1 % (at least one) of the blocks of 8 x 8 pixels, counted from the
+//                    upper left corner; in a region a block has the pixels of that region
 //   relmse           mean of (a - b)^2 / (b^2 + 0.01)
 //   smape            mean of |a - b| / (|a| + |b| + 0.01), [0, 1)
 //   ssim             mean structural similarity (ssim.h) of the luma (Rec. 709 weights) of the tone-mapped
 //                    channels; a region counts the windows that are centred in it
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
-//   max, max_alpha   the largest |a - b| of the colours, and that of A
-//   flip             the mean of flip_map() (flip.h), where somebody measured it
-//   without_noise    as error_without_noise() (without_noise.h) has it, where somebody measured it
+//   max, max_alpha   the largest |a - b| of the colours, and of A
+//   flip             the mean of flip_map() (flip.h), if it was measured
+//   without_noise    the result of error_without_noise() (without_noise.h), if it was measured
 // A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out, as is every
 // SSIM window that contains it. The figures of an empty set of pixels are NaN.
 #pragma once

@@ -52,7 +52,7 @@ private:
         void add(std::vector<float> now, std::size_t frames);
     };
     std::size_t frames_ = 0;
-    std::vector<char> finite_; // [pixel]: in all frames so far; char, since rows are worked on at once
+    std::vector<char> finite_; // [pixel]: in all frames so far; char, for parallel rows
     Sequence image_, reference_;
     bool has_reference_ = false;
     std::vector<double> change_; // [pixel]: sum of the squared errors of its changes

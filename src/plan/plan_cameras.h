@@ -11,8 +11,8 @@
 
 namespace sparselens {
 
-// The part of the plane at depth 1 that the display window shows, as in OpenEXR: its width, and its centre relative to the
-// optical axis; x right, y up.
+// The part of the plane at depth 1 that the display window shows, as in OpenEXR: its width, and its centre relative to
+// the optical axis; x right, y up.
 struct ScreenWindow {
     double width = 1; // (0, inf)
     Imath::V2d centre{0, 0};

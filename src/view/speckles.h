@@ -1,4 +1,4 @@
-// Finds speckles: pixels in the midst of a surface whose depth is that of the sky.
+// Finds speckles: pixels amid a surface that have the depth of the sky.
 //
 // Where a renderer scatters a ray, in fog, it may write the depth of the sky: pixels of one surface then have, at
 // random, the surface's depth or 1e10. Such a pixel takes the depth of the pixels around it if it is opaque, at least

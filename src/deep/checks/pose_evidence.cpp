@@ -21,7 +21,7 @@ bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
     return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
 }
 
-// Whether the pixel differs from one of those to the right and below.
+// Whether the pixel differs from the pixel to the right or the pixel below.
 bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
     for (const Imath::V2i &q : {p + Imath::V2i(beside, 0), p + Imath::V2i(0, beside)}) {
         if (!picture.samples.windows.data.intersects(q) || !picture.shows_something(q)) continue;

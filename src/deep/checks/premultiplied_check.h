@@ -1,8 +1,8 @@
 // Whether the colours of a picture are multiplied by their coverage, as they must be.
 //
-// From an opaque surface to nothing, over an edge of one to three pixels, coverage falls from 1 to 0. Premultiplied colours fall
-// with it, and unpremultiplied ones stay as bright as the surface. Light that is added without coverage (glows, flames) does
-// not tell: the nothing beside the edge has to be black.
+// Over an edge of one to three pixels, from an opaque surface to nothing, coverage falls from 1 to 0. Premultiplied
+// colours fall with it, while unpremultiplied ones stay as bright as the surface. Light that is added without coverage
+// (glows, flames) cannot tell the two apart, so the pixels beyond the edge have to be black.
 #pragma once
 
 #include "../../view/flat_pixels.h"

@@ -78,7 +78,7 @@ constexpr std::array number_names{
     NumberName{"unreal/layerData/*/fstop", Quantity::fstop, number},
     NumberName{"unreal/layerData/*/focalDistance", Quantity::focus_units, number},
     NumberName{"unreal/layerData/*/fov", Quantity::field, field_of_degrees},
-    // What cameras and other programs say about themselves: used where nothing better is there
+    // What cameras and other programs state about themselves; used only if there is nothing better
     NumberName{"effectiveFocalLength", Quantity::focal_length, number, false},
     NumberName{"nominalFocalLength", Quantity::focal_length, number, false},
     NumberName{"Exif:FocalLength", Quantity::focal_length, number, false},

@@ -1,5 +1,6 @@
-// The colour space that the header of an EXR states. In this order: chromaticities; colorInteropID, an id of the
-// Color Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, such an id, or a name of a configuration.
+// The colour space that the header of an EXR states. In this order: chromaticities; colorInteropID, an id of the Color
+// Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, which is such an id or a configuration's
+// name.
 #pragma once
 
 #include "colour.h"

@@ -29,7 +29,8 @@ std::vector<std::string> colour_layers(const std::vector<Channel> &channels);
 // The layers that hold colours, if there is no R, G or B outside of them and no beauty among them; otherwise none.
 std::vector<std::string> layers_without_beauty(const std::vector<Channel> &channels);
 
-// Renames R of `layer` to R; likewise G, B, A, AR, AG and AB, unless `channels_of_picture` has a channel of that name.
+// Renames the R of `layer` to plain R; likewise G, B, A, AR, AG and AB, unless `channels_of_picture` has a channel of
+// that name.
 // R, G, B and A come first.
 void name_beauty(std::vector<FileChannel> &channels, const std::string &layer,
                  const std::vector<Channel> &channels_of_picture);

@@ -27,7 +27,7 @@ std::string first_of(const std::vector<std::string> &names);
 // Such a channel is never carried along like a colour.
 bool is_position_channel(const std::string &channel);
 
-// A new header with these windows and channels. It keeps all of `metadata` except what describes how its own pixels
+// A new header with these windows and channels. It keeps all of `metadata` except the description of how its own pixels
 // were stored.
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,
                           const Imf::Header &metadata);

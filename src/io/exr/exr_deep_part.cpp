@@ -21,7 +21,7 @@ namespace sparselens {
 
 namespace {
 
-// Where each channel of a file is read to. Channels that are not listed are not read.
+// The memory into which each channel of a file is read. Channels that are not listed are not read.
 struct Planes {
     std::vector<std::pair<std::string, std::vector<float> *>> named;
     std::vector<PixelType> types;

@@ -37,8 +37,8 @@ public:
     }
 };
 
-// The expected content of a file. Text of more than 64 MB is refused. A pipe or a device with other content may never end: reading
-// stops at once if it does not begin like an EXR file, or after 64 MB of text.
+// The expected content of a file. Text of more than 64 MB is refused. A pipe or a device with other content may never
+// end, so reading stops at once if it does not begin like an EXR file, or after 64 MB of text.
 enum class Content { exr, text, bytes };
 
 // A seekable stream. `-` and files that cannot seek are read into memory completely.
