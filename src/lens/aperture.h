@@ -1,5 +1,5 @@
-// The aperture, prepared: the one description from which the lens points of the gather, the rays of the ray tracer and
-// the discs of small lamps come. Places on the lens are u, x right and y up, in units of the radius of the f-number.
+// The aperture, prepared. The gather's lens points, the ray tracer's rays and the discs of small lamps all come from
+// it. Places on the lens are u, x right and y up, in units of the radius of the f-number.
 #pragma once
 
 #include "lens/aperture_shape.h"
@@ -13,8 +13,8 @@
 
 namespace sparselens {
 
-// A point of the lens. Light through it weighs rgb, times `behind` or `in_front` by where it comes from; the mean of
-// each over the lens is 1.
+// A point of the lens. Its light is weighted by rgb, times `behind` or `in_front` depending on where the light comes
+// from; the mean of each weight over the lens is 1.
 struct LensPoint {
     Imath::V2d u;
     std::array<float, 3> rgb{1, 1, 1};
@@ -23,19 +23,20 @@ struct LensPoint {
 
 class Aperture {
 public:
-    // Throws Error where no light passes a channel of the picture.
+    // Throws Error if no light passes in a channel of the picture.
     explicit Aperture(const ApertureShape &shape = {});
 
     const ApertureShape &shape() const { return shape_; }
     bool disc() const {
         return !picture_ && shape_.spherical == 0 && round();
-    } // evenly bright, maybe squeezed
+    } // evenly bright, possibly squeezed
     bool coloured() const { return picture_ && picture_->coloured(); }
-    bool two_sided() const { return shape_.spherical != 0; } // not the same behind focus and in front
+    bool two_sided() const { return shape_.spherical != 0; } // differs behind focus and in front
     Imath::V2d half_extent() const;                          // the largest |u.x| and |u.y|
 
-    // The lens point of a point of the unit square; equal areas there pass equal light (the mean of R, G and B, without
-    // the weights by side). x is the share within a radius, y the share of a turn; of a picture, rows and columns.
+    // The lens point for a point of the unit square. Equal areas of the square pass equal light (the mean of R, G and
+    // B, without the weights by side). x is the share of the light within a radius, y the share of a turn; for a
+    // picture, x and y are rows and columns.
     LensPoint at(const Imath::V2d &square) const;
 
     // The outline before it is squeezed (ApertureShape); not for a picture. It is fine enough for discs of a CoC of
@@ -55,10 +56,10 @@ private:
 
     ApertureShape shape_;
     std::optional<PictureTable> picture_, behind_, in_front_;
-    static constexpr int levels = 9; // of outlines, each for four times the CoC of the one before
+    static constexpr int levels = 9; // of outlines, each for four times the CoC of the previous one
     std::array<std::vector<Imath::V2d>, levels> outlines_;
     std::vector<Imath::V2d> fan_;   // an outline, for points
-    std::vector<double> fan_areas_; // of its triangles with the middle, summed up, the last 1
+    std::vector<double> fan_areas_; // of its triangles with the middle, summed up; the last is 1
     double mean_behind_ = 1, mean_in_front_ = 1;
 };
 
