@@ -124,9 +124,9 @@ bool is_mixed(const FlatPixels &pixels, std::size_t own, const Sides &sides) {
 }
 
 // What edge_at() found at an opaque pixel: whether it lies between two surfaces, whether it mixes the pixels right
-// beside it,
-// and the depth of the surface that it shows more of. A filter may be wider than a pixel, so the pixels right beside it
-// may be mixed themselves. If there are several mixtures, the one whose surfaces are farthest apart counts.
+// beside it, and the depth of the surface that it shows more of. A filter may be wider than a pixel, so the pixels
+// right beside it may be mixed themselves. If there are several mixtures, the one whose surfaces are farthest apart
+// counts.
 struct Edge {
     bool parted = false, mixed = false;
     std::optional<float> depth;

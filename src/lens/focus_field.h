@@ -34,11 +34,7 @@ public:
     bool moves() const { return looks_.magnification != 1; }
 
     // The skew s, x right and y up: lens point u displaces a point seen at p by s u* more, with u* mirrored in x. So
-    // the CoC is
-    // s
-    // larger along a line through the axis (magnified with the picture), and
-    // s
-    // smaller across it.
+    // the CoC is |s| larger along a line through the axis (magnified with the picture), and |s| smaller across it.
     Imath::V2d skew(const Imath::V2d &p) const {
         const Imath::V2d q = frame_.place(p);
         return looks_.magnification * looks_.astigmatism * at_focus_ *

@@ -29,9 +29,8 @@ struct LampSpread {
 };
 
 // The part of a lamp's light that a cat-eye leaves: light through places a on the lens with
-// scale a - centre
-// <= 1. The middle of the second circle moves in proportion to the light's displacement, so that this part is a circle
-// too.
+// |scale a - centre| <= 1. The middle of the second circle moves in proportion to the light's displacement, so that
+// this part is a circle too.
 struct LampCut {
     Imath::V2d scale, centre;
 };

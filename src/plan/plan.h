@@ -37,7 +37,7 @@ struct Plan {
     double edges =
         0; // share of pixels of the centre view beside a jump of depth: surfaces are torn (kernels/surface.h)
     int supersample =
-        1; // size at which views with the same rays are worth it, as a factor; 1 if the centre view is fine
+        1; // factor on the size at which views with the same rays pay; 1 if the centre view has sub-pixels
 
     double share() const; // all views together, as a share of one full view
 };

@@ -23,7 +23,7 @@ ViewMapping::ViewMapping(const Imath::V2d &position, double focal_px, const Wind
 
 Imath::V2d ViewMapping::in_view(const Imath::V2d &p, double inverse_z) const {
     const double scale =
-        kernels::scale_in_view(unzoom_, approach_, inverse_z); // depth by that in the centre view, by s
+        kernels::scale_in_view(unzoom_, approach_, inverse_z); // depth ratio to the centre view, over s
     if (!(scale > 0)) return Imath::V2d(std::numeric_limits<double>::quiet_NaN());
     return {kernels::place_in_view(p.x, offset_.x, step_.x, inverse_z, scale),
             kernels::place_in_view(p.y, offset_.y, step_.y, inverse_z, scale)};

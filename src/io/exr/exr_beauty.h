@@ -70,7 +70,6 @@ public:
     // The channel's name in the picture: R for fg.Combined.R, Z for fg.Z if no depth is requested, otherwise unchanged.
     // Empty if the channel belongs to another picture, or is a depth outside of all layers while the picture has its
     // own depth.
-    // is a depth outside of all layers where the picture has one of its own.
     std::string name_of(const std::string &channel) const;
 
 private:
