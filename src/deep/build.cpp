@@ -186,7 +186,7 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
             from = {};
         });
     }
-    whole.begin.reserve(pixels + 1); // memory that is first touched after the memory it replaces is freed
+    whole.begin.reserve(pixels + 1); // first touched after the memory that it replaces was freed
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t j = 0; j + 1 < pieces[i].begin.size(); ++j)
             whole.begin.push_back(first_sample[i] + pieces[i].begin[j]);

@@ -26,10 +26,11 @@ struct LdiFile {
     std::optional<PackedRows> packed = {}; // the samples, in place of those of `ldi`
 };
 
-// Reads the deep parts of one view of the file, else the flat ones (read_flat_exr). Of several deep parts:
-// - a part whose samples lie where those of another part lie, or that has no depth and as many samples in every pixel,
-//   is a layer (an AOV) of that part: R of the part "diffuse" becomes diffuse.R;
-// - the other parts are one object each, and the picture has the samples of all of them (see deep_merge());
+// Reads the deep parts of one view of the file, or if it has none, the flat ones (read_flat_exr). If there are several
+// deep parts:
+// - a part with samples at the same positions as another part, or without depth and with as many samples in every
+//   pixel, is a layer (an AOV) of that part: R of the part "diffuse" becomes diffuse.R;
+// - every other part is an object, and the picture has the samples of all of them (see deep_merge());
 // - but if exactly one part has the name of a beauty (exr_parts.h), that part is the whole picture, and parts that are
 //   not layers of it are left out.
 // If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the
