@@ -31,7 +31,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
                         other.name, *others, first.name, *focal));
 }
 
-// The samples of the pictures, at least one, merged by depth (deep/merge.h).
+// The pictures, of which there must be at least one, with their samples merged by depth (deep/merge.h).
 OpenedLdi merged(std::vector<OpenedLdi> parts) {
     OpenedLdi first = std::move(parts.front());
     if (parts.size() == 1) return first;
@@ -52,7 +52,7 @@ Camera camera_for(const OpenedLdi &in, const ClusterRequest &request) {
     return camera;
 }
 
-// The options if no scale is known: inverse depth alone decides.
+// The options for clustering. If no scale is known, inverse depth alone decides.
 ClusterOptions options_for(const Camera &camera, const Windows &windows, const ClusterRequest &request,
                            bool &has_scale) {
     ClusterOptions by{.layers = request.layers};
@@ -107,7 +107,7 @@ ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, cons
 
 ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,
                          Progress &progress, const Tell &tell) {
-    if (ldis.size() == 1 && !request.beauty) // because the beauty is not copied
+    if (ldis.size() == 1 && !request.beauty) // a single LDI is not copied
         return clustered(*ldis[0], camera_for(*ldis[0], request), request, progress, tell);
     std::vector<OpenedLdi> parts;
     for (const OpenedLdi *ldi : ldis) parts.push_back(*ldi);
