@@ -148,7 +148,7 @@ private:
         float noise, errors;
         if (views[i] > 0) {
             const float around = Tuning::mean_over_geometric * std::exp(log_difference[i] / compared[i]);
-            noise = std::max(around, own_difference[i]) / (views[i] + 1); // a firefly is not a lamp
+            noise = std::max(around, own_difference[i]) / (views[i] + 1); // one view's firefly is not a lamp
             errors = Tuning::standard_errors;
         } else {
             noise = Tuning::mean_over_geometric_alone * std::exp(log_own[i]);

@@ -29,10 +29,11 @@ struct FlatFile {
 
 // Reads the flat parts of one view of the file, or the channels of one layer of it, as one picture: the beauty (by the
 // name of the part, or else the first part), then all other parts with the same display window. The data window
-// contains those of all parts; outside its own, a part is 0, which as a depth means nothing. Warnings name parts that are not
-// used. A channel whose name is taken becomes a channel of the layer of its part. If nothing is named R, G or B, the
-// layer with the name of a beauty is read as the beauty (exr_beauty.h: ViewLayer.Combined, Ci). Throws UsageError if
-// there are several and the choice names none. A missing A is made from AR, AG and AB (see channel_alpha.h).
+// contains those of all parts; outside its own, a part is 0, which as a depth means nothing. Warnings name parts that
+// are not used. A channel whose name is taken becomes a channel of the layer of its part. If nothing is named R, G or
+// B, the layer with the name of a beauty is read as the beauty (exr_beauty.h: ViewLayer.Combined, Ci). Throws
+// UsageError if there are several and the choice names none. A missing A is made from AR, AG and AB (see
+// channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
