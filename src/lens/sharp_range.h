@@ -1,9 +1,9 @@
 // The depths between which a lens is sharp: no circle of confusion (CoC) is larger than a limit that still counts as
 // sharp.
 //
-// |c(z)| <= s, with c(z) = R F (z - d) / (d z) as in thin_lens.h, holds from R F d / (R F + s d) to R F d / (R F - s
-// d). The second is infinite if s d >= R F; R F / s, the nearest focus distance for which it is infinite, is the
-// hyperfocal distance.
+// |c(z)| <= s, with c(z) = R F (z - d) / (d z) as in thin_lens.h, holds from R F d / (R F + s d) to
+// R F d / (R F - s d). The second is infinite if s d >= R F. The nearest focus distance for which it is infinite, R F / s,
+// is the hyperfocal distance.
 #pragma once
 
 #include "thin_lens.h"
