@@ -2,8 +2,8 @@
 // sharp.
 //
 // |c(z)| <= s, with c(z) = R F (z - d) / (d z) as in thin_lens.h, holds from R F d / (R F + s d) to
-// R F d / (R F - s d). The second is infinite if s d >= R F. The nearest focus distance for which it is infinite, R F / s,
-// is the hyperfocal distance.
+// R F d / (R F - s d). The second is infinite if s d >= R F. The nearest such focus distance, R F / s, is the
+// hyperfocal distance.
 #pragma once
 
 #include "thin_lens.h"
