@@ -5,11 +5,11 @@
 #
 #   tools/demo.sh [--size WxH] [--spp N] [--reference N] [--bin DIR] [-o DIR]
 #
-# --bin takes executables that are built already; -o names another folder than demo/. What was traced earlier by
-# the same dof-trace with the same arguments is taken again.
+# --bin takes executables that are built already; -o names another folder than demo/. Scenes that the same dof-trace
+# traced earlier with the same arguments are reused.
 set -euo pipefail
 export LC_ALL=C
-unset OCIO # pictures are made for the screen by oiiotool's built-in sRGB
+unset OCIO # oiiotool converts pictures for the screen with its built-in sRGB
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=640x360 spp=16 reference_spp=1024 bin='' out=$here/demo
 while [ $# -gt 0 ]; do
@@ -27,7 +27,7 @@ done
 
 build() {
     "$here/tools/install-deps.sh" build demo
-    # In a folder that the tests have configured they stay on: turning them off would throw away their objects.
+    # In a build folder with tests they stay on: turning them off would discard their objects.
     local tests=()
     [ -e "$here/build/build.ninja" ] || tests=(-DSPARSELENS_TESTS=OFF -DSPARSELENS_BENCHMARKS=OFF)
     cmake --preset release -S "$here" --log-level=WARNING -DSPARSELENS_LAB=ON "${tests[@]}"
@@ -37,15 +37,15 @@ build() {
 table=()
 row() { table+=("$(printf '%-36s %8s %8s %7s  %s' "$1" "${@:2:4}" | sed 's/ *$//')"); }
 
-# timed COMMAND...: leaves the wall time in $seconds.
+# timed COMMAND...: stores the wall time in $seconds.
 timed() {
     local start=${EPOCHREALTIME/./}
     "$@"
     seconds=$(printf '%.2f' "$((${EPOCHREALTIME/./} - start))e-6")
 }
 
-# traced FOLDER ARGUMENT...: dof-trace into that folder, unless what lies there is its unchanged result. The
-# stamp holds the program's checksum and arguments, the time it took, and the checksums of what it wrote.
+# traced FOLDER ARGUMENT...: runs dof-trace into that folder, unless the folder holds its unchanged result. The stamp
+# holds the program's checksum and arguments, the time it took, and the checksums of its output.
 traced() {
     local folder=$out/$1 stamp=$out/$1/traced.txt job
     shift
@@ -62,10 +62,10 @@ traced() {
     (cd "$folder" && { echo "$job"; echo "$seconds"; sha256sum ./*.exr; } >traced.part && mv traced.part traced.txt)
 }
 
-# figure NAME JSON: the first value of that name, that of the whole picture.
+# figure NAME JSON: the first value with that name, which describes the whole picture.
 figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1{s/.*: *//;s/null/inf/;p}'; }
 
-# compared TITLE SECONDS PICTURE: a row with the picture's error.
+# compared TITLE SECONDS PICTURE: prints a row with the picture's error.
 compared() {
     local json
     json=$("$bin/dof-compare" "$3" "$reference" --json)
@@ -75,8 +75,8 @@ compared() {
 for_screen=(--ch R,G,B --colorconvert linear sRGB --clamp:min=0:max=1)
 to_png() { oiiotool "$1.exr" "${for_screen[@]}" -d uint8 -o "$1.png"; }
 
-# The font by its path, as OpenImageIO finds it by its name up to 2.4 only. A picture needs no titles: where oiiotool cannot
-# write them, they are left out.
+# The font's path, because OpenImageIO finds fonts by name up to 2.4 only. If oiiotool cannot draw titles, they are left
+# out.
 font=$(find /usr/share/fonts -name DejaVuSans.ttf -print -quit 2>/dev/null || true)
 writes_titles() {
     local code=0
@@ -85,7 +85,7 @@ writes_titles() {
     return $code
 }
 
-# strip FILE WIDTH: before, after and reference side by side, each WIDTH wide; below them the same detail of each.
+# strip FILE WIDTH: before, after and reference side by side, each WIDTH wide; below them one detail of each.
 strip() {
     local width=${size%x*} height=${size#*x} pictures=() details=() i
     local panel=$2x$(($2 * height / width))
@@ -100,18 +100,18 @@ strip() {
     oiiotool "${pictures[@]}" "${details[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"
 }
 
-# The chain as users write it; what it gives must be what the stages gave one by one.
+# The chain as a pipe, as users write it. It must give the same result as the separate stages.
 piped() {
     "$bin/ldi-warp" "$center" "${rim[@]}" -o - | "$bin/ldi-cluster" - -o - |
         "$bin/dof-gather" - --method "${methods[0]}" -o "$out/piped.exr"
 }
 
-# The picture by the Python module of the build: says what is missing where it cannot run.
+# Makes the picture with the Python module of the build; if it cannot run, says what is missing.
 in_python() {
     local folder python
     folder=$(dirname "$bin")
     python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$folder/CMakeCache.txt" 2>/dev/null || true)
-    if ! compgen -G "$folder/python/sparselens/_sparselens.*" >/dev/null; then # configured, it has the rest of the package
+    if ! compgen -G "$folder/python/sparselens/_sparselens.*" >/dev/null; then # a configured folder has the rest
         note='left out: the module was not built (packages pybind11-dev, python3-dev; target sparselens_python)'
     elif ! "${python:=python3}" -c 'import numpy' 2>/dev/null; then
         note="left out: $python lacks numpy (package python3-numpy)"
@@ -131,9 +131,9 @@ same_picture() {
 
 [ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
 [ -x "$bin/dof-trace" ] || { echo "demo: needs dof-trace, so configure with -DSPARSELENS_LAB=ON (package libembree-dev)" >&2; exit 1; }
-exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
+exec </dev/null 3>&1 1>&2 # tools write messages to stderr; file descriptor 3 is for the table
 mkdir -p "$out"
-methods=(lens selective) # of dof-gather; the first one's picture is the one shown
+methods=(lens selective) # of dof-gather; the first one's picture is shown
 center=$out/views/center.exr reference=$out/reference/reference.exr result=$out/${methods[0]}.exr
 
 row "fence $size" seconds 'PSNR dB' SSIM
@@ -170,7 +170,7 @@ strip "$out/fence-small.png" 240
 
 printf '%s\n' "${table[@]}" >&3
 
-# What to look at, and how to go on. Paths are quoted as a shell needs them.
+# Says what to look at and how to continue. Paths are quoted for a shell.
 cat >&3 <<END
 
 Look at these pictures (PNG for the screen, EXR for everything else):

@@ -1,4 +1,4 @@
-// dof-compare: how far a picture is from its reference, and how steady a sequence is.
+// dof-compare: measures how far a picture is from its reference, and how steady a sequence is.
 #include "base/error.h"
 #include "chain/file_notices.h"
 #include "chain/regions.h"
@@ -80,7 +80,7 @@ void add_options(CLI::App &app, Options &options) {
     for (CLI::Option *option : app.get_options())
         if (option->get_group() == "Lens" && !option->check_lname("stereo-view") &&
             !option->check_lname("layer"))
-            option->needs(regions); // they say how to read that file
+            option->needs(regions); // regions say how to read that file
     add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
                        {"... without the noise of two references",
                         "dof-compare picture.exr reference.exr another.exr"},
@@ -169,7 +169,7 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
         throw UsageError(fmt::format(
             "--frames {}: three frames or more are needed to tell how steady they are", options.frames));
     TemporalError error;
-    std::optional<Windows> windows; // those of the first frame
+    std::optional<Windows> windows; // of the first frame
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::vector<std::string> names = frames.words(i);
         const auto read = [&](const std::string &path) {

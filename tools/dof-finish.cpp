@@ -1,4 +1,5 @@
-// dof-finish: makes a gathered picture and a few rays through the same lens into one picture that is nearer to the truth.
+// dof-finish: combines a gathered picture and a few rays through the same lens into one picture that is nearer to the
+// truth.
 #include "base/error.h"
 #include "chain/file_notices.h"
 #include "finish/finish_picture.h"
@@ -28,7 +29,7 @@ FlatFile read(const std::string &path, const ToolContext &tool) {
     return file;
 }
 
-// The numbers of samples that the headers state; where one states none, all count the same.
+// The sample counts that the headers state. If one header states none, all renders count the same.
 std::vector<double> stated_samples(const FinishCommand &options, const ToolContext &tool) {
     std::vector<double> samples;
     for (const std::string &path : options.renders)
@@ -39,12 +40,12 @@ std::vector<double> stated_samples(const FinishCommand &options, const ToolConte
     return std::vector<double>(options.renders.size(), 1);
 }
 
-// One after the other: only what they add up to stays in memory.
+// Adds the renders one after the other, so that only their sum stays in memory.
 TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
                    const FlatFile &gathered, const ToolContext &tool) {
     TwoHalves halves(gathered.image);
     Camera lens = read_camera(gathered.header);
-    if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes those that it draws
+    if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
     for (std::size_t k = 0; k < paths.size(); ++k) {
         FlatFile file = read(paths[k], tool);
         if (const auto other = lens_differences(lens, read_camera(file.header)); !other.empty())
@@ -69,7 +70,7 @@ Image shown(FinishedPicture finished, ShowFinished show) {
     return map_of(finished.error.map, finished.image.windows);
 }
 
-// What people read, and what --stats writes.
+// Tells people, and returns what --stats writes.
 Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
                 const std::array<double, 2> &samples, const ToolContext &tool) {
     const ErrorEstimate &error = finished.error;

@@ -1,4 +1,4 @@
-// dof-gather: makes the picture that a lens takes from a layered depth image.
+// dof-gather: computes the picture that a lens takes from a layered depth image.
 #include "chain/devices.h"
 #include "chain/file_notices.h"
 #include "chain/take_picture.h"
@@ -19,7 +19,7 @@ using namespace sparselens;
 
 namespace {
 
-// No tiles: not gathered by tiles.
+// `tiles` is absent if the method does not gather by tiles.
 Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
     const std::optional<double> &focused = picture.camera.focus_distance;
     const Stats focus = focused && std::isfinite(*focused) ? Stats(*focused) : Stats(nullptr);
@@ -57,7 +57,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache,
     };
 }
 
-// What frames of one file share, so that a pull of focus over it reads it once.
+// Shares the LDI between frames of one file, so that a focus pull over one file reads it once.
 class Caches {
 public:
     std::shared_ptr<LdiCache> of(const std::string &input) {
@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    std::mutex guard_; // of what follows
+    std::mutex guard_; // for the members below
     std::string input_;
     std::shared_ptr<LdiCache> last_;
 };

@@ -1,4 +1,5 @@
-// dof-view: a page in a browser that shows the picture that a lens takes from a layered depth image, and changes the lens.
+// dof-view: serves a page for the browser that shows the picture of a layered depth image through a lens, and changes
+// the lens.
 #include "base/error.h"
 #include "harness/commands/frames.h"
 #include "harness/examples.h"
@@ -28,10 +29,10 @@ using namespace sparselens;
 
 namespace {
 
-// Says where to go on, and is gone a minute later, or with what cleans the temporary folder.
+// Writes a page that redirects to the address. The file is deleted a minute later, or with the temporary folder.
 std::string file_that_leads_to(const std::string &address) {
     std::string path = (std::filesystem::temp_directory_path() / "dof-view-XXXXXX.html").string();
-    const int file = ::mkstemps(path.data(), 5); // readable by its owner alone
+    const int file = ::mkstemps(path.data(), 5); // only its owner can read it
     const std::string page = fmt::format("<meta http-equiv=\"refresh\" content=\"0;url={}\">\n", address);
     const bool written = file >= 0 && ::write(file, page.data(), page.size()) == ssize_t(page.size());
     if (file >= 0) ::close(file);
@@ -39,8 +40,8 @@ std::string file_that_leads_to(const std::string &address) {
     return path;
 }
 
-// Opens the page through a file that its owner alone can read, as every user of the machine sees the words of a command.
-// Throws Error where the file cannot be written or nothing opens it.
+// Opens the page through a file that only its owner can read, because every user of the machine can see the arguments
+// of a process. Throws Error if the file cannot be written or no program opens it.
 void open_browser(const std::string &address) {
     const std::string file = file_that_leads_to(address);
     std::string program = "xdg-open", argument = file;
@@ -85,7 +86,7 @@ void print_address(const std::string &address, int port) {
     std::fflush(stdout);
 }
 
-// dof-view, of the frames that the words describe; its options are those of the first.
+// Runs dof-view on the frames that the words describe. The options are those of the first frame.
 int view(const std::vector<std::string> &words, const FrameCommands &frames) {
     CLI::App app("Shows the picture that a lens takes from a layered depth image (LDI) in a browser, and "
                  "changes the lens",

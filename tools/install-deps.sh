@@ -1,10 +1,10 @@
 #!/bin/sh
-# Installs the Debian packages that a job here needs and this machine lacks.
+# Installs the Debian packages that a job needs and this machine lacks.
 #
 #   tools/install-deps.sh SET...      sets: blender, build, demo, gpu, lint, report, test
 #
-# Needs nothing but a Debian base system (12 or later), and root or sudo if something is missing. Prints one line when all is
-# there; exit 1, with one line saying why, when it is not and cannot be had.
+# Needs only a Debian base system (12 or later), and root or sudo if something is missing. Prints one line if everything
+# is installed; otherwise exits with 1 and one line that says why a package is not available.
 set -eu
 
 release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-release}" 2>/dev/null || true)
@@ -18,8 +18,8 @@ report='chromium chromium-driver gnuplot-nox'
 test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
       openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time zsh'
-# What releases differ in. The sources are formatted as clang-format 14 does it, which Debian 12 alone has; Blender 5's
-# extensions need what its package does not bring; what makes a wheel is in Debian 13 and later.
+# Differences between releases. The sources are formatted by clang-format 14, which only Debian 12 has; the extensions
+# of Blender 5 need modules that its package lacks; the packages for wheels are in Debian 13 and later.
 case $release in
 bookworm) test="clang-format-14 $test" ;;
 trixie) test="$test python3-scikit-build-core" ;;
@@ -52,7 +52,7 @@ packages_of() {
     done
 }
 
-# dpkg-query leaves out, and complains of, names it never heard of: they are missing too.
+# Packages that are not installed. dpkg-query skips unknown names with a complaint: those are missing too.
 missing_of() {
     installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null || true)
     for package; do
@@ -64,7 +64,7 @@ as_root() {
     if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# apt's own messages are kept for the case that it fails; the lock is waited for.
+# Shows apt's own messages only if it fails. Waits for the lock.
 apt_get() {
     as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -q -y -o DPkg::Lock::Timeout=120 "$@" \
         >>"$log" 2>&1 </dev/null
@@ -88,6 +88,6 @@ command -v apt-get >/dev/null || fail "apt-get is not there; install these by ot
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 echo "install-deps: installing $missing"
-apt_get update || true # a broken list of no interest must not stop this; install says if one was needed
+apt_get update || true # an unrelated broken list must not stop this; install fails if a needed list is broken
 apt_get install --no-install-recommends $missing ||
     fail "apt-get could not install $missing: $(grep -E '^(E:|sudo:)' "$log" | tail -n 1)"

@@ -1,4 +1,4 @@
-// ldi-cluster: merges deep pictures, and the samples of each pixel to fewer.
+// ldi-cluster: merges deep pictures, and reduces the samples in each pixel.
 #include "chain/cluster_ldi.h"
 #include "chain/file_notices.h"
 #include "harness/examples.h"

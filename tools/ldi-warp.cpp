@@ -39,7 +39,8 @@ void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &dev
     };
 }
 
-// What one step frees the next one takes, of whatever size: without this, the kernel clears most pages several times.
+// Each step reuses the memory that the step before freed, whatever its size. Without this, the kernel clears most pages
+// several times.
 void keep_freed_memory() { mallopt(M_MMAP_MAX, 0); }
 
 } // namespace

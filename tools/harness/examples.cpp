@@ -14,7 +14,7 @@ void add_examples(CLI::App &app, std::initializer_list<Example> examples) {
         text += std::string("  ") + purpose + ":\n      " + command + "\n";
     app.footer(text);
 #if CLI11_VERSION_MAJOR > 2 || CLI11_VERSION_MINOR >= 6
-    app.get_formatter()->enable_footer_formatting(false); // which would run lines together
+    app.get_formatter()->enable_footer_formatting(false); // the formatter would join lines
 #endif
 }
 

@@ -10,7 +10,7 @@ namespace sparselens {
 
 struct Example {
     const char *purpose; // a sentence without its full stop
-    const char *command; // as it is typed, one line
+    const char *command; // as typed, in one line
 };
 
 void add_examples(CLI::App &app, std::initializer_list<Example> examples);

@@ -18,11 +18,11 @@ bool FrameRun::go_on(const Frame &frame) {
         ++begun_;
         pass_turns();
     }
-    std::future<void> &thread = threads_[n % 2]; // what it had has ended
+    std::future<void> &thread = threads_[n % 2]; // frame n - 2, which used it, has ended
     if (frame.aside) try {
             thread = std::async(std::launch::async, [this, frame, n] { run(frame, n); });
             return true;
-        } catch (const std::system_error &) { // there is no thread
+        } catch (const std::system_error &) { // no thread is available
         }
     run(frame, n);
     return !stopped();

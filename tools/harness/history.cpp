@@ -20,7 +20,7 @@ namespace sparselens {
 
 namespace {
 
-// Options without influence on the picture; those with a value take the next word.
+// Options that do not affect the picture; those with a value take the next word.
 constexpr std::array silent_options{"-o",      "--output", "--depth-out", "--threads", "--max-memory",
                                     "--stats", "--frames", "--progress",  "--device"};
 constexpr std::array silent_flags{"-v", "--verbose", "-u", "--update", "--skip-bad-frames"};

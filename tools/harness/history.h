@@ -1,5 +1,5 @@
-// The history of a picture in its metadata, under the names that OpenImageIO uses: the command is appended as a line to
-// the attribute Exif:ImageHistory, and Software names the program.
+// Records the history of a picture in its metadata, under the names that OpenImageIO uses: the command is appended as a
+// line to the attribute Exif:ImageHistory, and Software names the program.
 #pragma once
 
 #include "harness/commands/cli.h"
@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// The command line as a shell reads it, in one line, without the options that do not change the picture: the output,
+// The command line in shell syntax, in one line, without the options that do not change the picture: the output,
 // threads, memory, messages and the other frames. So the same work gives the same bytes.
 std::string command_line(const std::string &tool, const std::vector<std::string> &words);
 
@@ -22,11 +22,11 @@ struct HistoryOptions {
 };
 void add_history_option(CLI::App &app, HistoryOptions &options);
 
-// Whether the options, parsed, record the command line.
+// Whether the parsed options ask for the command line to be recorded.
 bool records_history(const CLI::App &parsed);
 
-// The last line of the history of an EXR file; empty where it has none, or is not an EXR file. Throws a
-// std::exception where its header cannot be read.
+// The last line of the history of an EXR file; empty if it has none or the file is not an EXR file. Throws a
+// std::exception if its header cannot be read.
 std::optional<std::string> last_command(const std::string &path);
 
 // Appends tool.command_line.

@@ -1,4 +1,4 @@
-// Prints the messages of frames in their order; messages of a later frame are kept until then.
+// Prints the messages of frames in order: messages of a later frame are kept until its turn.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ class InTurn {
 public:
     explicit InTurn(bool come) : come_(come) {}
 
-    // Calls `line` now or when the turn comes, one at a time. It says nothing in turn itself.
+    // Calls `line` now or when the turn comes, one at a time. `line` must not call say().
     void say(std::function<void()> line) {
         const std::lock_guard lock(guard_);
         if (come_)
@@ -28,7 +28,7 @@ public:
     }
 
 private:
-    std::mutex guard_; // of what follows, and of what is said
+    std::mutex guard_; // for the members below, and for printing
     bool come_;
     std::vector<std::function<void()>> kept_;
 };

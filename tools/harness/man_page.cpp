@@ -18,7 +18,7 @@ bool is_argument(const CLI::Option &option) {
     return option.get_lnames().empty() && option.get_snames().empty();
 }
 
-// "N" of CLI11's "N:INT in [0 - 7]"; of an argument without a type, its name.
+// "N" of CLI11's "N:INT in [0 - 7]"; for an argument without a type, its name.
 std::string type_of(const CLI::Option &option) {
     const std::string all = option.get_type_name();
     const std::string type =
@@ -26,7 +26,7 @@ std::string type_of(const CLI::Option &option) {
     return type.empty() && is_argument(option) ? option.get_name() : type;
 }
 
-// All names, as they are typed.
+// All names, as typed.
 std::vector<std::string> names_of(const CLI::Option &option) {
     std::vector<std::string> names;
     for (const std::string &name : option.get_snames()) names.push_back("-" + name);
@@ -82,7 +82,7 @@ std::string section(const CLI::App &app, const std::string &group, bool argument
     return text;
 }
 
-// The group of options and arguments without one: "Options", since CLI11 2.5 "OPTIONS".
+// The name that CLI11 gives the default group: "Options", since CLI11 2.5 "OPTIONS".
 std::string group_of_none() { return CLI::OptionDefaults().get_group(); }
 
 std::string environment(const CLI::App &app) {
@@ -117,7 +117,7 @@ std::string man_page(const CLI::App &app, const std::string &version) {
 
 namespace {
 
-// The words that an option takes, "a b" of its type "a|b"; else "".
+// The words that an option accepts: "a b" for the type "a|b"; else "".
 std::string words_of(const CLI::Option &option) {
     std::string words = type_of(option);
     if (words.find('|') == std::string::npos) return "";
@@ -172,7 +172,7 @@ std::string zsh_completion(const CLI::App &app) {
         const std::string value = zsh_value(*option), help = zsh_escaped(option->get_description(), "[]:\\");
         if (is_argument(*option))
             specs += " \\\n    " + single_quoted("*:" + zsh_escaped(type_of(*option), ":\\") + ":_files");
-        for (const std::string &name : names_of(*option)) // "*": a second time too
+        for (const std::string &name : names_of(*option)) // "*": may be given again
             specs += " \\\n    " + single_quoted("*" + name + "[" + help + "]" + value);
     }
     return "#compdef " + app.get_name() + "\n_arguments -s" + specs + "\n";
@@ -194,7 +194,7 @@ std::string fish_completion(const CLI::App &app) {
 }
 
 void add_documentation_options(CLI::App &app, const std::string &version) {
-    // CLI11 prints such an exception's text and ends with 0, whatever else is missing.
+    // CLI11 prints the text of this exception and exits with 0, even if required options are missing.
     const auto print = [](const std::string &text) { throw CLI::CallForVersion(text, 0); };
     app.add_flag_callback(
            "--man", [&app, print, version] { print(man_page(app, version)); },

@@ -1,4 +1,5 @@
-// Which frames of a range have something in common that one keeps for the next, by what their jobs say (Job::keeps in tool.h).
+// Finds which frames of a range share something that one frame keeps for the next, from what their jobs declare
+// (Job::keeps in tool.h).
 #pragma once
 
 #include <cstddef>
@@ -11,11 +12,11 @@ namespace sparselens {
 
 class FrameNeighbours {
 public:
-    // What each keeps; "": nothing. None: it is not said.
+    // `keeps`: what each frame keeps; "" means nothing, an empty optional that the job does not say.
     explicit FrameNeighbours(std::vector<std::optional<std::string>> keeps) : keeps_(std::move(keeps)) {}
 
     bool keeps_for_next(std::size_t i) const { return i + 1 < keeps_.size() && same(i, i + 1); }
-    // Whether a frame takes nothing of the one before it, so that both may be worked on at the same time.
+    // Whether a frame takes nothing from the frame before it, so that both may be worked on at the same time.
     bool are_apart(std::size_t i) const { return i > 0 && keeps_[i] && !same(i - 1, i); }
 
 private:

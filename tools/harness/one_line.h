@@ -1,4 +1,4 @@
-// What is printed to a terminal: messages, and text from other programs or files.
+// Prepares text for a terminal: messages, and text from other programs or files.
 #pragma once
 
 #include "base/text.h"
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// The text as one line without control characters, whatever the message of a library or the names in a file contain.
+// Returns the text as one line without control characters, whatever a library's message or the names in a file contain.
 inline std::string one_line(std::string text) {
     for (char &c : text)
         if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
@@ -18,7 +18,7 @@ inline std::string one_line(std::string text) {
     return text;
 }
 
-// A message with its parameters (error.h) as options: --depth inverse.
+// Spells the parameters in a message (error.h) as options: --depth inverse.
 inline std::string with_options(std::string_view message) {
     return spelled(message, [](const std::string &name, const std::string &value) {
         std::string option = "--" + name;

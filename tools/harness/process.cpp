@@ -32,7 +32,8 @@ int fail(const std::string &prefix, const std::string &text, int code) {
     return code;
 }
 
-// On a signal to stop: removes half-written files and dies of the signal, as the parent process expects.
+// On a signal to stop: removes half-written files and ends the process by the same signal, as the parent process
+// expects.
 extern "C" void stop(int number) {
     remove_unfinished();
     std::signal(number, SIG_DFL);
@@ -40,12 +41,12 @@ extern "C" void stop(int number) {
 }
 
 void handle_signals() {
-    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
+    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error to report, not a silent end
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
 
-// CLI11 2.6 passes over what separates thousands in numbers, by default a comma: 2,5 would be 25.
+// CLI11 2.6 skips thousands separators in numbers, by default a comma: 2,5 would be read as 25.
 class NoThousands : public std::numpunct<char> {
     char do_thousands_sep() const override { return '_'; }
 };
@@ -54,7 +55,7 @@ void take_commas_for_no_digits() {
         std::locale::global(std::locale(std::locale(), new NoThousands));
 }
 
-// "; did you mean --fstop?", or nothing.
+// Returns "; did you mean --fstop?", or nothing.
 std::string meant_by(const CLI::App &app, const std::string &argument) {
     if (!argument.starts_with('-')) return {};
     std::vector<std::string> names;
@@ -64,7 +65,7 @@ std::string meant_by(const CLI::App &app, const std::string &argument) {
     return nearest.empty() ? nearest : fmt::format("; did you mean {}?", nearest);
 }
 
-// What is wrong with the words: an argument that was not understood tells more than what is missing because of it.
+// Explains the usage error: an argument that was not understood says more than a missing one that follows from it.
 std::string explanation(const CLI::App &app, const CLI::ParseError &error) {
     for (const std::string &argument : app.remaining())
         if (argument != "--") return "unknown argument: " + argument + meant_by(app, argument);
@@ -76,7 +77,7 @@ std::string explanation(const CLI::App &app, const CLI::ParseError &error) {
     return error.what();
 }
 
-// From 2.4 on CLI11 passes over a value of the environment that an option's check refuses.
+// Since 2.4, CLI11 skips a value of the environment that an option's check refuses. Throws an error instead.
 void refuse_passed_over(const CLI::App &app) {
     for (const CLI::Option *option : app.get_options()) {
         const std::string &name = option->get_envname();
@@ -87,8 +88,8 @@ void refuse_passed_over(const CLI::App &app) {
     }
 }
 
-// From 2.6 on CLI11 asks for what is required before it calls what options call, of which --man and --device list print and
-// end.
+// Since 2.6, CLI11 checks required options before it calls the options' callbacks; but --man and --device list must
+// print and exit first.
 void parse_all(CLI::App &app, std::vector<std::string> words) {
     try {
         app.parse(std::move(words));
@@ -121,7 +122,7 @@ void add_memory_option(CLI::App &app, ProcessOptions &options) {
         ->transform(CLI::AsSizeValue(false));
 }
 
-// Options look at files and at what OpenImageIO writes, so that not only their words may fail.
+// Reports all exceptions, because options also look at files and at what OpenImageIO writes.
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix) {
     take_commas_for_no_digits();
@@ -140,7 +141,8 @@ std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &wo
 
 namespace {
 
-// Rows that are read and dropped again would else go back to the system each time, which clears their pages anew.
+// Keeps freed memory in the process: rows that are read and dropped repeatedly would otherwise return to the system
+// each time, which clears their pages again.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     constexpr int own_pages_from = 4 << 20, kept = 64 << 20; // bytes

@@ -1,4 +1,4 @@
-// Work of a tool's process before and after its job.
+// Sets up the process of a tool before its job and reports after it.
 #pragma once
 
 #include "harness/tool.h"
@@ -11,17 +11,17 @@
 namespace sparselens {
 
 struct ProcessOptions {
-    int threads = 0; // 0: all that the process may use (its affinity mask)
+    int threads = 0; // 0: all that the affinity mask allows
     bool verbose = false;
     std::optional<std::uint64_t> max_memory;
 };
 
-// --version, -v, --threads, --man, --completion.
+// Adds --version, -v, --threads, --man and --completion.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 
-// Parses the words. Returns nothing where there is work to do, else the exit code, after answering --help and the like
-// or reporting a usage error. `prefix` begins the message: "dof-gather: ", "dof-gather: frame 12: ".
+// Parses the words. Returns nothing if there is work to do; else the exit code, after answering --help and the like or
+// reporting a usage error. `prefix` begins the message: "dof-gather: ", "dof-gather: frame 12: ".
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix);
 
@@ -39,10 +39,10 @@ private:
 // Returns freed memory to the system, before work that needs much.
 void give_back_memory();
 
-// For what frames hold beside each other: --max-memory, else a quarter of the machine's.
+// The memory for frames held at the same time, in bytes: --max-memory, else a quarter of the machine's memory.
 std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory);
 
-// Runs `work`, reports what it throws in one line that begins with `prefix`, and returns the exit code.
+// Runs `work`, reports its exception in one line that begins with `prefix`, and returns the exit code.
 int exit_code_of(const std::string &prefix, const std::function<void()> &work);
 
 } // namespace sparselens

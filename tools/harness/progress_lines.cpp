@@ -17,7 +17,7 @@ Progress::Listener terminal_listener(const std::string &tool_name) {
     };
 }
 
-// What was printed last: threads may reach their percentages out of order.
+// The last printed state: threads may report their percentages out of order.
 struct Said {
     std::mutex guard;
     int percent = -1;

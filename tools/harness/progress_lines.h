@@ -18,27 +18,27 @@ enum class ProgressFormat {
     openjd,   // "openjd_progress: 42" and "openjd_status: ...": Open Job Description
 };
 
-// The number of frames that are done, of all frames, and the number of the current frame in a range.
+// The number of finished frames, the number of all frames, and the number of the current frame in a range.
 struct FrameCount {
     std::size_t done = 0, all = 1;
     std::optional<int> number = {};
 };
 
-// The percentage of all frames, when the current frame is at `percent`.
+// The percentage of all frames when the current frame is at `percent`.
 int overall_percent(const FrameCount &frames, int percent);
 
 // The line for a farm, without a line feed.
 std::string progress_line(ProgressFormat format, const std::string &tool_name, int percent);
 
-// What is done now, as Open Job Description has it, without a line feed: "openjd_status: dof-gather: frame 12 (2 of 24):
-// gathering".
+// The current stage as Open Job Description prints it, without a line feed: "openjd_status: dof-gather: frame 12 (2 of
+// 24): gathering".
 std::string status_line(const std::string &tool_name, const FrameCount &frames, const std::string &stage);
 
-// What the line of an error begins with: "dof-gather: ", for Open Job Description "openjd_fail: dof-gather: ".
+// The beginning of an error line: "dof-gather: ", for Open Job Description "openjd_fail: dof-gather: ".
 std::string error_prefix(ProgressFormat format, const std::string &tool_name);
 
-// Prints to stderr, in its turn, because standard output may be the picture and farms read both. For a farm, the percentages refer
-// to all frames and never decrease.
+// Prints to stderr when the frame's turn comes, because standard output may be the picture and farms read both. For a
+// farm, the percentages refer to all frames and never decrease.
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames,
                                       const std::shared_ptr<InTurn> &turn, Progress::Watch watch = {});
 

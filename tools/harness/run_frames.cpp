@@ -43,7 +43,7 @@ const std::map<std::string, ProgressFormat> &progress_formats() {
     return formats;
 }
 
-// What errors begin with. The words are not parsed yet: an error in them is for the farm, too.
+// The beginning of error messages, from words that are not parsed yet: a farm must understand errors in the words too.
 std::string prefix_of(const std::string &name, const std::vector<std::string> &words) {
     const auto format = progress_formats().find(value_of("--progress", words));
     return error_prefix(format == progress_formats().end() ? ProgressFormat::terminal : format->second, name);
@@ -84,7 +84,7 @@ void explain_all_pictures(CLI::App &app) {
     }
 }
 
-// The command line of the tool at one frame, parsed.
+// The parsed command line of the tool at one frame.
 struct FrameCommand {
     CLI::App app;
     FrameOptions frames;
@@ -107,7 +107,7 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
     return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
-// Whether -u leaves the frame alone.
+// Whether -u skips the frame.
 bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool) {
     const NamedFiles files = named_files(parsed);
     const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
@@ -123,7 +123,7 @@ bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool) {
 
 using Tool = std::shared_ptr<ToolContext>;
 
-// For a farm. What a frame prints comes before what the next one prints, so that the percentages grow.
+// Prints a stage for a farm. Output of one frame precedes that of the next, so that the percentages grow.
 void say_stage(ProgressFormat format, const ToolContext &tool, const char *stage) {
     if (format == ProgressFormat::terminal) return;
     tool.progress->start(stage, 1);
@@ -134,14 +134,14 @@ bool has_threads() {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1;
 }
 
-// The most memory that the process has held.
+// The largest memory use of the process so far, in bytes.
 std::uint64_t peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
-// By each frame, from files.
+// The number of bytes that each frame reads from files.
 std::vector<std::uint64_t> bytes_read(const std::vector<NamedFiles> &frames) {
     std::vector<std::uint64_t> bytes;
     for (const NamedFiles &frame : frames) {
@@ -165,7 +165,7 @@ Tool context_of(const std::string &name, const FrameCommand &command) {
     return tool;
 }
 
-// All frames of one command line.
+// Runs all frames of one command line.
 int run_words(const std::string &name, const std::string &description, const std::vector<std::string> &words,
               const Prepare &prepare) {
     const std::string prefix = prefix_of(name, words);
@@ -177,7 +177,7 @@ int run_words(const std::string &name, const std::string &description, const std
         command = std::make_unique<FrameCommand>(name, description, prepare);
         return parse_words(command->app, commands->words(i), prefix + frame_name(*commands, i));
     };
-    // Usage errors of any frame are reported before the first frame is worked on.
+    // Usage errors of any frame are reported before work on the first frame begins.
     CommandPtr first, other;
     std::vector<NamedFiles> files;
     std::vector<std::optional<std::string>> keeps;
@@ -236,7 +236,7 @@ int run_words(const std::string &name, const std::string &description, const std
     return run.worst();
 }
 
-// The views or layers that the first input of the command names.
+// The names of the views or layers in the first input of the command.
 std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::App &parsed) {
     const std::vector<NamedFile> inputs = named_files(parsed).inputs;
     const auto input = std::ranges::find_if(
@@ -256,8 +256,8 @@ std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::A
     return names;
 }
 
-// A command line that asks for all views or layers as one for each; empty where help and the like, or an error in the words,
-// answered it.
+// Expands a command line that asks for all views or layers into one command for each. Empty if --help or the like, or
+// an error in the words, ended it; `answered` is then the exit code.
 struct EachCommand {
     std::vector<std::vector<std::string>> commands;
     std::optional<int> answered = {};

@@ -20,7 +20,7 @@ void write_stats(const ToolContext &tool, const Stats &fields) {
     const bool to_stderr = tool.stats == "-";
     const int file =
         to_stderr ? STDERR_FILENO : open(tool.stats.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    // In one call, so that the lines of stages that share the file do not mix.
+    // One call, so that lines of stages that share the file do not mix.
     const bool written = file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
     const int reason = errno;
     if (!to_stderr && file >= 0) close(file);

@@ -1,5 +1,5 @@
-// --stats: statistics on the work that a stage left out, as one line of JSON per stage and frame, so that the stages of
-// a pipe can share a file. docs/stats.md explains the keys.
+// --stats: writes statistics on the work that a stage left out, as one line of JSON per stage and frame, so that the
+// stages of a pipe can share a file. docs/stats.md explains the keys.
 #pragma once
 
 #include "harness/tool.h"
@@ -11,7 +11,7 @@ namespace sparselens {
 using Stats = nlohmann::ordered_json;
 
 // Appends a line with the name of the tool, the frame if there are several, and `fields` to the file that --stats names
-// (- for stderr). Does nothing without --stats. Throws Error where the file cannot be written.
+// (- for stderr). Does nothing without --stats. Throws Error if the file cannot be written.
 void write_stats(const ToolContext &tool, const Stats &fields);
 
 } // namespace sparselens

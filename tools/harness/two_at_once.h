@@ -1,4 +1,4 @@
-// Whether two frames fit into memory at the same time.
+// Decides whether two frames fit into memory at the same time.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace sparselens {
 
-// A frame takes memory as its files are large: as much for each of their bytes as frames before it took at most.
+// Estimates a frame's memory from the size of its files, with the largest memory per byte that earlier frames took.
 class TwoAtOnce {
 public:
-    // `bytes`: of the files that each frame reads; 0 where that is not known. `memory`: what all may take.
+    // `bytes`: size of the files that each frame reads, 0 if unknown. `memory`: limit for both frames, in bytes.
     TwoAtOnce(std::vector<std::uint64_t> bytes, std::uint64_t memory)
         : bytes_(std::move(bytes)), memory_(double(memory)) {}
 
-    // Whether frame i may be worked on beside the one before it. Asked for each frame in turn, before it begins; `peak` is the most
-    // memory that the process has held. The first two are worked on alone: then it is known what one takes.
+    // Whether frame i may run beside the frame before it. Call for each frame in order, before it begins; `peak` is the
+    // largest memory use of the process so far, in bytes. The first two frames run alone, to measure what one takes.
     bool fit(std::size_t i, std::uint64_t peak) {
         if (i == 2) per_byte_ = double(peak) / of(0);
         if (i > 2) per_byte_ = std::max(per_byte_, double(peak) / most_at_once_);

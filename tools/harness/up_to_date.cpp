@@ -17,14 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Outputs appear whole or not at all; but a full disk elsewhere, or a copy that was stopped, may have left less.
+// Checks that an output is complete. Tools write a file whole or not at all, but a full disk or an interrupted copy may
+// have cut it short.
 bool is_complete(const fs::path &file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error) || fs::file_size(file, error) == 0) return false;
     if (file.extension() != ".exr") return true;
     try {
         check_header(*open_input(file.string()),
-                     file.string()); // before OpenEXR believes what a header claims
+                     file.string()); // before OpenEXR relies on the header
         return !Imf::checkOpenEXRFile(file.c_str());
     } catch (const Error &) {
         return false;
@@ -39,8 +40,8 @@ bool is_newest(const std::string &output, const std::vector<NamedFile> &inputs) 
     });
 }
 
-// An output without history of its own has that of its input, whose last command is another tool's. One that cannot be read
-// is made again.
+// An output without its own history has the history of its input, whose last command belongs to another tool. An output
+// that cannot be read is made again.
 Freshness compare_command(const std::string &output, const std::string &command_line) try {
     const std::optional<std::string> last = last_command(output);
     const std::string tool = command_line.substr(0, command_line.find(' ')) + ' ';

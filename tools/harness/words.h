@@ -11,8 +11,8 @@
 
 namespace sparselens {
 
-// Turns each word into the number of its value, which CLI11 reads into an enum or a bool. Anything else, numbers
-// included, is a usage error that lists the words.
+// Turns each word into the number of its value, which CLI11 reads into an enum or a bool. Everything else, even a
+// number, is a usage error that lists the words.
 template <typename Value>
 CLI::Validator words(const std::map<std::string, Value> &values) {
     const auto look_up = [values](std::string &text) -> std::string {

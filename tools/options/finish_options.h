@@ -16,16 +16,16 @@ enum class ShowFinished { picture, error, trust };
 struct FinishCommand {
     std::string gathered, output;
     std::vector<std::string> renders, denoised, others;
-    std::vector<double> samples; // of each render; empty: as their headers say
+    std::vector<double> samples; // of each render; empty: from their headers
     std::optional<double> goal;  // dB
     ShowFinished show = ShowFinished::picture;
-    ColourOptions colour; // of the output
+    ColourOptions colour; // for the output
     std::optional<PixelType> type;
     AskedCompression compression;
     HistoryOptions history;
 };
 
-// `options` must stay where it is until the command line is parsed.
+// `options` must not move until the command line is parsed.
 void add_finish_options(CLI::App &app, FinishCommand &options);
 
 } // namespace sparselens

@@ -16,7 +16,7 @@ namespace sparselens {
 
 namespace {
 
-// "x0,y0,x1,y1" with x0 <= x1 and y0 <= y1, or nothing.
+// Parses "x0,y0,x1,y1" with x0 <= x1 and y0 <= y1; nothing for other text.
 std::optional<Imath::Box2i> parse_box(const std::string &text) {
     int v[4] = {};
     const char *at = text.data(), *const end = at + text.size();
@@ -80,7 +80,7 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
         ->group("Windows");
 }
 
-// Throws where options contradict each other.
+// Throws if options contradict each other.
 void check(const CLI::App &parsed, const GatherCommand &options) {
     const auto is_given = [&](std::string name) {
         std::ranges::replace(name, '_', '-');
@@ -133,7 +133,7 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
 
 void add_point_option(CLI::App &app, std::optional<Imath::V2d> &point) {
     const auto read = [&point](const std::string &text) {
-        constexpr double most_rounded = 1.01; // a point of the rim by two digits
+        constexpr double most_rounded = 1.01; // the length of a rim point rounded to two digits
         point = parse_pair(text);
         if (point && point->length() > 1 && point->length() <= most_rounded) point->normalize();
         if (!point || point->length() > most_rounded)

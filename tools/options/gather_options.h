@@ -17,13 +17,14 @@ struct GatherCommand : PictureRequest {
     std::string output = {}, depth_output = {};
     std::optional<PixelType> type = {}; // -d
     AskedCompression compression = {};
-    int tiles = 0; // pixels to a side; 0: scanlines
+    int tiles = 0; // side in pixels; 0: scanlines
 };
 
-// `options` must stay where it is until the command line is parsed, which throws where options contradict each other.
+// `options` must not move until the command line is parsed. Parsing throws if options contradict each other.
 void add_gather_options(CLI::App &app, GatherCommand &options);
 
-// Those of them that say which picture is made of what, and not what is written where: what else shows pictures has these.
+// Adds only the options that decide which picture is made from which file, not what is written where. Other programs
+// that show pictures use these.
 void add_picture_making_options(CLI::App &app, GatherCommand &options);
 
 } // namespace sparselens

@@ -14,18 +14,18 @@
 namespace sparselens {
 
 void add_lens_options(CLI::App &app, LensValues &values);
-void add_depth_options(CLI::App &app, DepthOptions &options); // the choice of the picture among them
-// How many pixels of the files are one of the picture.
+void add_depth_options(CLI::App &app, DepthOptions &options); // including the choice of the picture
+// How many pixels of the files, along one side, make one pixel of the picture.
 void add_subpixels_option(CLI::App &app, std::optional<int> &across);
 void add_picture_choice(CLI::App &app, PictureChoice &picture);
 
-// --depth-file: of the one picture that a tool reads, or of each of several.
+// --depth-file: for the one picture that a tool reads, or for each of several.
 void add_depth_file_option(CLI::App &app, std::string &file);
 void add_depth_files_option(CLI::App &app, std::vector<std::string> &files);
 
 CLI::Validator number(NumberRange range);
 
-// Of a table.
+// Adds the option of a table's entry.
 template <typename Values>
 CLI::Option *add_number(CLI::App &app, const NumberParameter<Values> &of, Values &values) {
     return app.add_option(fmt::format("--{}", of.name), values.*of.value, with_options(of.help))
@@ -33,10 +33,10 @@ CLI::Option *add_number(CLI::App &app, const NumberParameter<Values> &of, Values
         ->check(number(of.range));
 }
 
-// The looks of the lens: `given` must stay where it is until the command line is parsed.
+// Adds the looks of the lens. `given` must not move until the command line is parsed.
 void add_look_options(CLI::App &app, GivenLooks &given);
 
-// --highlight-gain and what goes with it.
+// Adds --highlight-gain and related options.
 void add_highlight_options(CLI::App &app, GivenLooks &given);
 
 } // namespace sparselens

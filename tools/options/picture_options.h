@@ -12,10 +12,10 @@
 
 namespace sparselens {
 
-// The two finite numbers of "X,Y", or nothing.
+// Parses "X,Y", two finite numbers; nothing for other text.
 std::optional<Imath::V2d> parse_pair(const std::string &text);
 
-// The X,Y of --view: scene units, x right, y up. Throws UsageError where the text is not X,Y.
+// Parses the X,Y of --view: scene units, x right, y up. Throws UsageError if the text is not X,Y.
 Imath::V2d view_offset(const std::string &text);
 
 // Adds the option `name` X,Y: a pixel in EXR coordinates, y down.
@@ -25,33 +25,33 @@ void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imat
 // Adds --method, with the names of the table of methods.
 void add_method_option(CLI::App &app, const GatherMethod *&method);
 
-// Adds --compression, with the names that flat or deep files may have; empty: as output_compression() says.
+// Adds --compression, with the names that flat or deep files allow; if empty, output_compression() decides.
 using AskedCompression = std::optional<Imf::Compression>;
 void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep);
 
 // Adds --recolor FILE: see loading/recoloured.h.
 void add_recolor_option(CLI::App &app, std::string &path);
 
-// Adds --tiles N: EXR in tiles of N x N pixels, else in scanlines.
+// Adds --tiles N: EXR in tiles of N x N pixels, instead of scanlines.
 void add_tiles_option(CLI::App &app, int &tiles);
 
 // Checks the name of an output before any work is done.
 CLI::Validator output_name(OutputKind kind);
 
-// Adds -d half|float: the type in which channels are written, else that of the input.
+// Adds -d half|float: the type of the written channels; if empty, the input's type.
 void add_type_option(CLI::App &app, std::optional<PixelType> &type);
 Image in_type(Image image,
-              std::optional<PixelType> type); // all channels but those of ids, which are integers
+              std::optional<PixelType> type); // all channels except ids, which are integers
 
-// Adds --device. `device`: a word as choose_device() of gpu/device_list.h has it; `list` is answered as --help is. `what_works`, for the help:
-// "What warps".
+// Adds --device. `device`: a word for choose_device() of gpu/device_list.h; `list` is answered as --help is.
+// `what_works` begins the help text: "What warps".
 void add_device_option(CLI::App &app, std::string &device, const std::string &what_works);
 
-// As Job::keeps has it: a device, unless the word means none.
+// For Job::keeps: a device, unless the word means none.
 inline std::string kept_device(const std::string &word) { return word == "cpu" ? "" : "a device"; }
 
-// --colorconfig and --colorspace; --output-colorspace, --display and --view-transform.
+// Adds --colorconfig and --colorspace; the second function adds --output-colorspace, --display and --view-transform.
 void add_input_colour_options(CLI::App &app, ColourOptions &options);
-void add_output_colour_options(CLI::App &app, ColourOptions &options); // of the output
+void add_output_colour_options(CLI::App &app, ColourOptions &options); // for the output
 
 } // namespace sparselens

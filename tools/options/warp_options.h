@@ -21,7 +21,7 @@ void add_view_list(CLI::App &app, ViewList &list);
 
 struct WarpCommand : LdiFromViews {
     HistoryOptions history = {};
-    ViewList views = {}; // its files, and where they stood
+    ViewList views = {}; // files and positions
     std::string output = {};
     AskedCompression compression = {};
 };

@@ -11,7 +11,7 @@ namespace sparselens {
 
 namespace {
 
-// The index of the word that holds the value of the option; the number of words if there is none.
+// The index of the word that holds the option's value; the number of words if there is none.
 std::size_t value_of_option(const std::string &option, const std::vector<std::string> &words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i] == option) return i + 1;

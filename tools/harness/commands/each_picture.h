@@ -1,6 +1,6 @@
-// --stereo-view all and --layer all: the same command once for each stereo view or layer of the input, as --frames is for
-// each frame. A placeholder in a name stands for the name of the view (%V, as in Nuke) or of the layer (%L), so that every
-// picture has an output of its own.
+// --stereo-view all and --layer all run the same command once for each stereo view or layer of the input, as --frames
+// does for each frame. A placeholder in a name stands for the name of the view (%V, as in Nuke) or of the layer (%L),
+// so that every picture has its own output.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct EachPicture {
 const EachPicture &each_view();
 const EachPicture &each_layer();
 
-// Whether the words of a command line ask for all of them.
+// Whether the words of a command line ask for all views or layers.
 bool asks_for_all(const EachPicture &each, const std::vector<std::string> &words);
 
-// The words for one of them: the option names it, and the placeholder is replaced. Throws UsageError if no output has the
-// placeholder in its name.
+// The words for one view or layer: the option names it, and the placeholder is replaced. Throws UsageError if no output
+// has the placeholder in its name.
 std::vector<std::string> words_for_one(const EachPicture &each, std::vector<std::string> words,
                                        const std::string &name);
 

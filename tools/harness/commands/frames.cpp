@@ -25,17 +25,18 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t most_frames = 1'000'000;
-constexpr std::size_t longest_name = 4096; // a path's; std::regex goes deeper with every character
+constexpr std::size_t longest_name = 4096; // of a path; std::regex recurses once per character
 
-// Where a number stands in a name: the characters from `begin` to `end`, which begin with a range or with none.
+// The position of a number in a name: the characters from `begin` to `end`, including a range before the number, if
+// any.
 struct Place {
     std::size_t begin = 0, end = 0;
     std::string range; // "1-24x2"
     int width = 0;     // digits, with zeros before the number
 };
 
-// A range of its own (1: one part at least is more than a number), then #, @@, %04d (2, 3: the digits) or $F4 (4: the digit). A
-// single @ is a part of names, as in shot@2x.exr.
+// An optional range (1: at least one part is more than a number), then #, @@, %04d (2, 3: the digits) or $F4 (4: the
+// digit). A single @ is an ordinary character of a name, as in shot@2x.exr.
 const std::regex &sequence_pattern() {
     static const std::string number = R"(-?\d{1,7})", span = number + "-" + number + R"((?:[xy:]-?\d{1,7})?)",
                              part = "(?:" + span + "|" + number + ")";
@@ -61,7 +62,7 @@ std::optional<Place> find_place(const std::string &name, std::size_t from = 0) {
     const std::size_t begin = from + std::size_t(match.position());
     Place place{begin, begin + std::size_t(match.length()), match[1], width_of(match)};
     const bool joins = begin > 0 && std::isalnum(static_cast<unsigned char>(name[begin - 1]));
-    if (joins && place.range.starts_with('-')) { // no sign
+    if (joins && place.range.starts_with('-')) { // a hyphen, not a sign
         ++place.begin;
         place.range.erase(0, 1);
     }
@@ -80,14 +81,14 @@ std::optional<int> number_in(std::string_view file, std::string_view before, std
     return number;
 }
 
-// The numbers of the files that are there, ascending. All but the number is taken as it stands: OpenImageIO takes a
-// name for a regular expression, which brackets in it are not, and some of which take forever.
+// The numbers of the files on disk, ascending. Everything but the number is compared literally: OpenImageIO would treat
+// the name as a regular expression, which fails for brackets, and some expressions take forever.
 std::vector<int> numbers_on_disk(const std::string &name) {
     namespace fs = std::filesystem;
     const auto place = find_place(name);
     if (!place) return {};
     const std::string before = name.substr(0, place->begin), after = name.substr(place->end);
-    const std::size_t slash = before.rfind('/') + 1; // 0 where there is none
+    const std::size_t slash = before.rfind('/') + 1; // 0 if there is none
     const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),
                       last = after.substr(0, after.find('/'));
     std::set<int> numbers;
@@ -98,7 +99,7 @@ std::vector<int> numbers_on_disk(const std::string &name) {
     return {numbers.begin(), numbers.end()};
 }
 
-// The options whose values may be keyed by frame, in a word or in a file (@keys.txt).
+// The options whose values can be keyed by frame, in a word or in a file (@keys.txt).
 constexpr std::array keyed_options{
     "--focus-distance", "--fstop",       "--lens-radius", "--focal-length",    "--sensor-width",
     "--scene-unit",     "--focus-pixel", "--blades",      "--blade-curvature", "--blade-rotation",
@@ -135,7 +136,7 @@ std::vector<int> frame_numbers(const std::string &range) {
         if (numbers.size() + std::size_t(std::abs(last - first) / step) >= most_frames) // before making them
             throw UsageError(fmt::format("--frames: '{}' has more than a million frames", range));
         std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
-        std::ranges::replace(text, ':', 'x'); // as OpenImageIO knows it
+        std::ranges::replace(text, ':', 'x'); // OpenImageIO's spelling
         if (!OIIO::Filesystem::enumerate_sequence(text, more)) throw no_range;
         numbers.insert(numbers.end(), more.begin(), more.end());
     }

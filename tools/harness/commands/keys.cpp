@@ -16,9 +16,9 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::ptrdiff_t most_digits = 9; // of the number of a frame
+constexpr std::ptrdiff_t most_digits = 9; // in a frame number
 
-// The number that is all of the text.
+// Parses the text as one number; nothing if anything else is in it.
 template <typename Number>
 std::optional<Number> whole_number(std::string_view text) {
     Number value = 0;
@@ -39,7 +39,7 @@ std::optional<KeyValue> parse_value(std::string_view text, KeyKind kind) {
     return KeyValue{*x, *y};
 }
 
-// Adds FRAME:VALUE; false where the text is not that.
+// Adds FRAME:VALUE; false if the text is something else.
 bool add_key(Keys &keys, std::string_view text) {
     const std::size_t colon = text.find(':');
     if (colon == text.npos) return false;
@@ -53,7 +53,7 @@ bool add_key(Keys &keys, std::string_view text) {
     return true;
 }
 
-// Adds the keys of a list; false where the text is not a list.
+// Adds the keys of a list; false if the text is not a list.
 bool add_keys(Keys &keys, std::string_view text) {
     const char separator = keys.kind == KeyKind::number ? ',' : ';';
     for (std::size_t from = 0, to = 0; to < text.size(); from = to + 1) {

@@ -1,5 +1,5 @@
-// Values keyed by frame: 1:5.0,24:2.0 are two numbers, 1:10,20;24:30,40 two pixels. Between the keys they are linear,
-// before the first and after the last constant.
+// Values keyed by frame: 1:5.0,24:2.0 are two numbers, 1:10,20;24:30,40 two pixels. Values are interpolated linearly
+// between keys, and constant before the first key and after the last.
 #pragma once
 
 #include <map>
@@ -21,12 +21,12 @@ struct Keys {
     std::map<int, KeyValue> by_frame; // not empty
 };
 
-// FRAME:VALUE,FRAME:VALUE or FRAME:X,Y;FRAME:X,Y, or nothing where the text is not such a list. Throws UsageError where
-// a frame is given twice.
+// Parses FRAME:VALUE,FRAME:VALUE or FRAME:X,Y;FRAME:X,Y; nothing if the text is not such a list. Throws UsageError if a
+// frame occurs twice.
 std::optional<Keys> parse_keys(std::string_view text, KeyKind kind);
 
-// The keys in a text file: lists as above, one a line or more; empty lines and lines that start with # do not count.
-// Throws UsageError, naming the file and the line, where one is not a list; Error where the file cannot be read.
+// Reads keys from a text file: lists as above, one or more lines; empty lines and lines that start with # are ignored.
+// Throws UsageError with the file and the line if a line is not a list; Error if the file cannot be read.
 Keys read_keys(const std::string &path, KeyKind kind);
 
 // The value at a frame as a word of a command line; pixels are rounded to whole ones.

@@ -44,22 +44,22 @@ void add_masks(std::vector<NamedFile> &files, const CLI::Option &option) {
         }
 }
 
-// What two names of one file have in common; empty for a folder or a device.
+// Equal for two names of one file; empty for a folder or a device.
 std::string identity(const std::string &path) {
     if (path == "-") return path;
     struct stat info {};
     if (::stat(path.c_str(), &info) == 0)
         return S_ISREG(info.st_mode) ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
-    std::error_code error; // it is not there yet: where would it be written?
+    std::error_code error; // the file does not exist yet: find where it would be written
     fs::path target = path;
     for (int links = 0; links < 40 && fs::is_symlink(target, error); ++links)
         target = target.parent_path() / fs::read_symlink(target, error);
     return fs::weakly_canonical(fs::absolute(target, error), error).string();
 }
 
-using Readers = std::map<std::string, std::string>; // the identity of a file that is read, and its name
+using Readers = std::map<std::string, std::string>; // identity of a file that is read -> its name
 
-// A file that does not exist may be written by one frame and read by the next.
+// Files that do not exist are left out: one frame may write them and the next read them.
 Readers readers_of(std::span<const NamedFiles> commands) {
     Readers readers;
     std::error_code error;
@@ -90,7 +90,7 @@ NamedFiles named_files(const CLI::App &parsed) {
 
 void refuse_overwriting(std::span<const NamedFiles> commands) {
     const Readers readers = readers_of(commands);
-    std::map<std::string, std::string> writers; // the identity of a file that is written, and the option
+    std::map<std::string, std::string> writers; // identity of a file that is written -> the option
     for (const NamedFiles &files : commands)
         for (const auto *written : {&files.outputs, &files.also_written})
             for (const auto &[option, path] : *written) {

@@ -1,4 +1,4 @@
-// Which files a command line reads and which it writes: the one table of the options whose values are files.
+// Lists the files that a command line reads and writes: the one table of the options whose values are files.
 #pragma once
 
 #include "harness/commands/cli.h"
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// Whether this word of a command line is an option whose value is an output: -o, --output, --depth-out, --cameras.
+// Whether the word is an option whose value is an output: -o, --output, --depth-out, --cameras.
 bool is_output_word(std::string_view word);
 
 struct NamedFile {
@@ -19,14 +19,14 @@ struct NamedFile {
 
 struct NamedFiles {
     std::vector<NamedFile> outputs, inputs;
-    std::vector<NamedFile> also_written; // beside the outputs: --stats, and the files of --masks that exist
+    std::vector<NamedFile> also_written; // besides the outputs: --stats, and the files of --masks that exist
 };
 
 NamedFiles named_files(const CLI::App &parsed);
 
-// Checks the frames of a range, or one command: throws UsageError where an output is a file that any of them reads, or
-// where two options write one file. Files are compared as files, through symbolic and hard links; folders and devices
-// are not compared.
+// Checks the frames of a range, or one command. Throws UsageError if an output is a file that any of them reads, or if
+// two options write one file. Names are compared after symbolic and hard links are followed; folders and devices are
+// not compared.
 void refuse_overwriting(std::span<const NamedFiles> commands);
 
 } // namespace sparselens
