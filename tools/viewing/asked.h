@@ -1,5 +1,6 @@
-// What a page asks for, as it sends it: one object of JSON,
-// {"page": "k3j9", "settings": {"fstop": "2.8", "quality": "draft"}, "frame": 12, "exposure": 0.5, "pixel": [320, 180]}.
+// A request from a page: one JSON object,
+// {"page": "k3j9", "settings": {"fstop": "2.8", "quality": "draft"}, "frame": 12, "exposure": 0.5, "pixel": [320,
+// 180]}.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -12,21 +13,21 @@
 namespace sparselens {
 
 struct Asked {
-    std::string page; // which of the pages that are open; of 1 to 32 letters and digits
-    // Options of dof-gather without their dashes, and their values; an empty one puts the option back to what the command
-    // line of the server says.
+    std::string page; // the page's id: 1 to 32 letters and digits
+    // Options of dof-gather without dashes -> their values. An empty value resets the option to the server's command
+    // line.
     std::map<std::string, std::string> settings;
-    std::optional<int> frame;        // its number, where there are frames; else the first
-    std::string format = "exr";      // of the files that commands write: "exr" or "png"
+    std::optional<int> frame;        // the frame's number in a sequence; empty: the first
+    std::string format = "exr";      // file format of the commands: "exr" or "png"
     double exposure = 0;             // stops, [-20, 20]
-    std::optional<Imath::V2i> pixel; // of the picture, EXR coordinates
+    std::optional<Imath::V2i> pixel; // in the picture, EXR coordinates
 };
 
-// Longer ones are not read.
+// Longer requests are refused.
 inline constexpr std::size_t most_asked = 16384; // bytes
 
-// Throws UsageError, which says what is wrong, where the text is anything else. Values are made of letters, digits and
-// "+-.,_" alone: no file can be named.
+// Parses a request. Throws UsageError with the reason if the text is invalid. Values may hold only letters, digits and
+// "+-.,_", so a page cannot name a file.
 Asked parse_asked(std::string_view text);
 
 } // namespace sparselens

@@ -11,7 +11,7 @@ void Crew::add(std::function<void()> task) {
     waiting_.push_back(std::move(task));
     if (idle_ < waiting_.size() && threads_.size() < most_at_once) try {
             threads_.emplace_back([this] { run(); });
-        } catch (const std::exception &) { // no memory for one more: those that are there do it
+        } catch (const std::exception &) { // no memory for another thread: the existing ones do the task
             if (threads_.empty()) {
                 waiting_.pop_back();
                 throw;

@@ -1,5 +1,5 @@
-// Threads that work on requests: no more than `most_at_once`, each made when it is first needed. How many tasks may wait is a
-// matter of those who add them.
+// Threads that work on requests: at most `most_at_once`, each created when first needed. The callers of add() limit the
+// number of waiting tasks.
 #pragma once
 
 #include <condition_variable>
@@ -17,8 +17,8 @@ public:
     static constexpr std::size_t most_at_once = 64;
 
     ~Crew() { end(); }
-    void add(std::function<void()> task); // which may not throw; throws where there can be no thread at all
-    void end();                           // after the tasks that were added
+    void add(std::function<void()> task); // the task must not throw; add() throws if no thread can be created
+    void end();                           // waits for all added tasks
 
 private:
     void run();

@@ -24,7 +24,7 @@ std::string random_key() {
 
 bool same_key(std::string_view key, std::string_view given) {
     if (key.size() != given.size()) return false;
-    volatile unsigned char differ = 0; // else the loop might end early
+    volatile unsigned char differ = 0; // volatile, so that the loop does not end early
     for (std::size_t i = 0; i < key.size(); ++i)
         differ = static_cast<unsigned char>(
             differ | (static_cast<unsigned char>(key[i]) ^ static_cast<unsigned char>(given[i])));

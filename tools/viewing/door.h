@@ -1,6 +1,7 @@
-// Lets in requests that know the key, from a page of this server's own. A page of another site that a browser shows
-// cannot read the key, but may send requests to any port; and a name of its own that it points to 127.0.0.1 makes it seem
-// of one site with this server (DNS rebinding). So the name in Host is this machine's, and Origin, where there is one, is it.
+// Admits only requests that know the key and come from this server's own page. A page of another site cannot read the
+// key, but the browser lets it send requests to any port. Such a site can also point its own host name to 127.0.0.1, so
+// that the browser takes both for one site (DNS rebinding). So the Host header must name this machine, and Origin, if
+// present, must equal it.
 #pragma once
 
 #include <string>
@@ -8,16 +9,18 @@
 
 namespace sparselens {
 
-// 128 random bits of the system, as 32 digits. Throws Error where it has none.
+// Returns 128 random bits of the system as 32 digits. Throws Error if the system provides none.
 std::string random_key();
 
-// Takes the same time wherever the two differ; not if they differ in length.
+// Compares in the same time wherever the two differ, unless their lengths differ.
 bool same_key(std::string_view key, std::string_view given);
 
-// Whether it is 127.0.0.1, localhost or [::1], with any port or none: through `ssh -L` the port is another.
+// Whether the host is 127.0.0.1, localhost or [::1], with or without a port. Any port is accepted, because it changes
+// through `ssh -L`.
 bool is_loopback_host(std::string_view host);
 
-// Whether a request with these headers comes from a page of the server itself, or from no page. An empty origin: none.
+// Whether a request with these headers comes from the server's own page, or from no page. An empty origin means no
+// Origin header.
 bool is_own_origin(std::string_view origin, std::string_view host);
 
 } // namespace sparselens

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view line_end = "\r\n", head_end = "\r\n\r\n";
 
-// The text before the mark, which both are taken off `rest`; all of it where there is no mark.
+// Returns the text before the mark, and removes both from `rest`; all of the text if there is no mark.
 std::string_view cut(std::string_view &rest, std::string_view mark) {
     const std::size_t at = rest.find(mark);
     const std::string_view before = rest.substr(0, at);
@@ -65,13 +65,13 @@ std::size_t length_of(std::string_view value) {
     return value.empty() ? 0 : std::size_t(std::stoul(std::string(value)));
 }
 
-// The header's value, where there is none yet.
+// Sets the header's value; refuses a second one.
 void put_once(std::string &header, std::string_view value) {
     if (!header.empty()) throw HttpRefusal{400, "a header stands there twice"};
     header = value;
 }
 
-// Returns the length of the body.
+// Reads the header lines; returns the length of the body.
 std::size_t read_headers(std::string_view lines, HttpRequest &request) {
     std::string length, key;
     while (!lines.empty()) {

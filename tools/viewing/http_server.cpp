@@ -40,7 +40,7 @@ sockaddr_in loopback(int port) {
 int listening_at(int port) {
     int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     const sockaddr_in address = loopback(port);
-    const int yes = 1; // another process may not have the same port all the same
+    const int yes = 1; // still refuses a port that another process listens on
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     if (::bind(socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0 ||
         ::listen(socket, SOMAXCONN) != 0) {
@@ -57,7 +57,7 @@ HttpAnswer refusal(int status, const std::string &why) { return {.status = statu
 
 } // namespace
 
-// What a thread of the crew works on.
+// A request that a thread of the crew works on.
 struct HttpServer::Task {
     HttpRequest request;
     HttpAnswer answer;
@@ -74,8 +74,8 @@ struct HttpServer::Connection {
 
     int socket = -1;
     State state = State::reading;
-    Clock::time_point began = Clock::now(); // of waiting for this request
-    Clock::time_point latest;               // when it is closed, unless it has gone on
+    Clock::time_point began = Clock::now(); // waiting for this request
+    Clock::time_point latest;               // when to close it, unless it makes progress
     std::string received = {};
     std::shared_ptr<Task> task = {};
     std::string head = {}, body = {}; // of the answer
@@ -83,7 +83,7 @@ struct HttpServer::Connection {
     bool keep_alive = true, over = false;
 
     bool can_go() const { return state == State::reading || state == State::draining; }
-    pollfd awaited() const { // nothing while it is worked for: who has gone is seen when the answer is sent
+    pollfd awaited() const { // not polled while working: a closed peer is noticed when the answer is sent
         return {state == State::working ? -1 : socket, short(state == State::writing ? POLLOUT : POLLIN), 0};
     }
 };
@@ -122,11 +122,11 @@ void HttpServer::run() {
     }
 }
 
-// For something to do.
+// Waits for an event.
 void HttpServer::wait() {
     const bool has_room =
         connections_.size() < limits_.connections || std::ranges::any_of(connections_, &Connection::can_go);
-    files_.clear(); // it has room for all: nothing here may need memory
+    files_.clear(); // its capity is reserved, so this allocates no memory
     files_.push_back({wake_, POLLIN, 0});
     files_.push_back({has_room && Clock::now() >= accept_again_ ? listener_ : -1, POLLIN, 0});
     for (const Connection &connection : connections_) files_.push_back(connection.awaited());
@@ -141,7 +141,7 @@ void HttpServer::attend_all() {
         const short events = (file++)->revents;
         try {
             attend(connection, events);
-        } catch (const std::exception &) { // no memory: this one is given up, the others go on
+        } catch (const std::exception &) { // no memory: closes this connection, keeps the others
             connection.over = true;
         }
     }
@@ -164,7 +164,7 @@ void HttpServer::accept_all() try {
     accept_again_ = Clock::now() + most_waiting;
 }
 
-// Closes the one that has kept its request back for longest. Whether there was one.
+// Closes the connection that has withheld its request for longest. Returns whether there was one.
 bool HttpServer::make_room() {
     auto oldest = connections_.end();
     for (auto each = connections_.begin(); each != connections_.end(); ++each)
@@ -199,7 +199,7 @@ void HttpServer::receive(Connection &connection) {
     begin(connection);
 }
 
-// Works on the first request that has come, if it is all there.
+// Begins work on the first received request, if it is complete.
 void HttpServer::begin(Connection &connection) {
     const auto task = std::make_shared<Task>();
     try {
@@ -221,7 +221,7 @@ void HttpServer::begin(Connection &connection) {
     crew_.add([this, task] {
         try {
             task->answer = answer_(task->request);
-        } catch (...) { // no memory, even for the message
+        } catch (...) { // no memory, not even for the message
             task->answer = {.status = 500, .type = "text/plain"};
         }
         task->done = true;
@@ -240,7 +240,7 @@ void HttpServer::reply(Connection &connection, HttpAnswer answer, bool keep_aliv
     send(connection);
 }
 
-// As much as the other side takes now; then waits for its next request, or for its end.
+// Sends as much as the other side takes now; after the last byte waits for its next request, or for its end.
 void HttpServer::send(Connection &connection) {
     const std::size_t head = connection.head.size(), all = head + connection.body.size();
     while (connection.sent < all) {
@@ -259,8 +259,7 @@ void HttpServer::send(Connection &connection) {
     }
     connection.body = {};
     connection.began = Clock::now();
-    if (!connection
-             .keep_alive) { // what it still sends is read, else the answer would be lost with the connection
+    if (!connection.keep_alive) { // reads what it still sends, else the answer would be lost
         ::shutdown(connection.socket, SHUT_WR);
         connection.state = Connection::State::draining;
         connection.latest = connection.began + most_draining;

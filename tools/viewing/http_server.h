@@ -1,8 +1,8 @@
-// Answers requests on a port of this machine. The one place that knows of sockets.
+// Answers HTTP requests on a port of this machine. Only this class uses sockets.
 //
-// One thread reads the requests of all connections and writes their answers, so a slow connection keeps nobody waiting and costs
-// no more than its bounded request; others (crew.h) work on what is whole and may come in. Where there are too many connections,
-// the one that has been silent or incomplete for longest makes room.
+// One thread reads the requests of all connections and writes their answers, so a slow connection delays nobody and
+// costs no more memory than one bounded request. Other threads (crew.h) work on complete requests that are admitted. If
+// there are too many connections, the one that has been silent or incomplete for longest is closed.
 #pragma once
 
 #include "viewing/crew.h"
@@ -23,18 +23,18 @@ namespace sparselens {
 
 struct HttpLimits {
     std::size_t connections = 256;
-    std::chrono::milliseconds request{10000}; // from a request's first byte to its last
+    std::chrono::milliseconds request{10000}; // first to last byte of a request
     std::chrono::milliseconds idle{60000};    // between requests
-    std::chrono::milliseconds answer{10000};  // between two parts of an answer that the other side takes
+    std::chrono::milliseconds answer{10000};  // between two parts of an answer that are taken
 };
 
 class HttpServer {
 public:
-    using MayComeIn = std::function<bool(const HttpRequest &)>; // quick; who may not is answered 403
+    using MayComeIn = std::function<bool(const HttpRequest &)>; // quick; false is answered 403
     using Answer =
-        std::function<HttpAnswer(const HttpRequest &)>; // by several threads; what it throws becomes 500
+        std::function<HttpAnswer(const HttpRequest &)>; // called by several threads; an exception becomes 500
 
-    // Port 0: any free port. `headers` are part of every answer. Throws Error if the port is not available.
+    // Port 0: any free port. `headers` are added to every answer. Throws Error if the port is not available.
     HttpServer(int port, MayComeIn may_come_in, Answer answer, std::string headers,
                const HttpLimits &limits = {});
     ~HttpServer();
@@ -43,7 +43,7 @@ public:
 
     int port() const;
     void run(); // until end()
-    void end(); // by any thread
+    void end(); // from any thread
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -67,10 +67,10 @@ private:
     HttpLimits limits_;
     int listener_ = -1, wake_ = -1;
     std::atomic<bool> ending_ = false;
-    Clock::time_point accept_again_ = {}; // after there was no room for one more
+    Clock::time_point accept_again_ = {}; // if there was no room for another connection
     Connections connections_;
-    std::vector<pollfd> files_; // of the two above and of the connections, as poll() takes them
-    Crew crew_;                 // last: its tasks use the others
+    std::vector<pollfd> files_; // of the two above and of the connections, for poll()
+    Crew crew_;                 // last: its tasks use the members above
 };
 
 } // namespace sparselens

@@ -8,7 +8,7 @@ namespace sparselens {
 
 namespace {
 
-// The depth in front at the middle of the picture; where that shows nothing, the nearest there is.
+// The depth of the nearest sample in the middle of the picture; if there is none, the smallest depth of the picture.
 float depth_in_the_middle(const ShotFrame &frame) {
     const Imath::Box2i &display = frame.in.ldi.windows.display;
     const Imath::V2i at((display.min.x + display.max.x) / 2, (display.min.y + display.max.y) / 2);
@@ -20,7 +20,7 @@ float depth_in_the_middle(const ShotFrame &frame) {
 
 Words lens_guess(const ShotFrame &frame, const Camera &camera) {
     const auto radius = lens_radius_of(camera);
-    if (radius == 0.0) return {}; // it needs no more
+    if (radius == 0.0) return {}; // nothing else is needed
     Words words;
     const auto add = [&](const char *option, std::string value) {
         words.push_back(option);

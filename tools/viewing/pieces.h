@@ -1,4 +1,4 @@
-// What is there of the picture at work before all of it is: 8-bit pixels, told to its page once.
+// Finished tiles of the picture in progress: 8-bit pixels, sent to its page once.
 #pragma once
 
 #include "io/display/shown_picture.h"
@@ -13,14 +13,14 @@
 namespace sparselens {
 
 struct Piece {
-    Imath::V2i first; // pixel, EXR coordinates
+    Imath::V2i first; // top left pixel, EXR coordinates
     ShownPixels pixels;
 };
 
-// Pieces of one picture at a time, made and taken by any number of threads.
+// Pieces of one picture at a time. Any number of threads may add and take them.
 class Pieces {
 public:
-    // While it lives, a picture of the page is at work, which has no pieces yet.
+    // During its lifetime a picture of the page is in progress, at first without pieces.
     class AtWork {
     public:
         AtWork(Pieces &pieces, const std::string &page) : pieces_(pieces) { pieces_.begin(page); }
@@ -36,7 +36,7 @@ public:
         const std::lock_guard lock(mutex_);
         pieces_.push_back(std::move(piece));
     }
-    // Takes the new pieces, in their order; none if another page's picture is at work.
+    // Takes the new pieces, in order; none if another page's picture is in progress.
     std::vector<Piece> take(const std::string &page) {
         const std::lock_guard lock(mutex_);
         if (page != page_) return {};

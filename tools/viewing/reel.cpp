@@ -29,7 +29,7 @@ std::size_t Reel::number_of(const std::string &path) const {
     return std::size_t(std::ranges::find(paths_, path) - paths_.begin());
 }
 
-// How many steps after the last one that was asked for, the way that those were asked for; round the end.
+// The number of steps from the last requested frame, in the direction of the requests, wrapping at the end.
 std::size_t Reel::ahead(std::size_t number) const {
     const std::size_t count = paths_.size();
     return (forwards_ ? number + count - last_asked_ : last_asked_ + count - number) % count;
@@ -59,7 +59,7 @@ bool Reel::holds(const std::string &path) const {
     return held_.contains(number_of(path));
 }
 
-// Lets the farthest go until so many bytes more fit, but for the one that was asked for last.
+// Frees the farthest frames until `bytes` more fit, but never the last requested one.
 void Reel::make_room(std::uint64_t bytes) {
     while (held_bytes_ + bytes > most_bytes_) {
         const auto farthest =
@@ -70,7 +70,7 @@ void Reel::make_room(std::uint64_t bytes) {
     }
 }
 
-// Nobody else reads meanwhile.
+// Reads a frame; no other thread reads meanwhile.
 Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
     reading_ = true;
     make_room(largest_);
@@ -94,7 +94,7 @@ Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
     return frame;
 }
 
-// The nearest one that is not held, where it fits beside those that are nearer.
+// The nearest frame that is not held, if it fits beside the nearer ones.
 std::optional<std::size_t> Reel::next_ahead() const {
     std::uint64_t nearer = 0;
     for (std::size_t step = 0; step < paths_.size(); ++step) {
@@ -104,7 +104,7 @@ std::optional<std::size_t> Reel::next_ahead() const {
         if (found != held_.end())
             nearer += found->second->packed.bytes();
         else if (step == 0)
-            return {}; // who asked reads it
+            return {}; // at() reads it
         else if (!bad_[number])
             return nearer + largest_ <= most_bytes_ ? std::optional(number) : std::nullopt;
     }
@@ -123,7 +123,7 @@ void Reel::read_ahead() {
         try {
             read(lock, *next);
         } catch (...) {
-            bad_[*next] = true; // who asks for it is told why
+            bad_[*next] = true; // at() tries again and reports the error
         }
     }
 }

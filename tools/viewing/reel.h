@@ -1,5 +1,5 @@
-// The frames of a sequence, as far as they fit into memory: each is read when it is first asked for, and those that come after
-// the last one that was are read ahead, by a thread of their own. One is read at a time.
+// Holds as many frames of a sequence as fit into memory. Each is read when it is first requested; a thread of its own
+// reads the frames after the last requested one ahead. One file is read at a time.
 #pragma once
 
 #include "viewing/shot_frame.h"
@@ -23,16 +23,18 @@ public:
     using Held = std::shared_ptr<const ShotFrame>;
     using Read = std::function<ShotFrame(const std::string &path)>; // may throw
 
-    // The files in their order; a file may be that of several frames. Frames of more than `most_bytes` are not held beside each other.
+    // `paths`: the files in order; several frames may share a file. The held frames take at most `most_bytes`, except
+    // that the last requested one is always held.
     Reel(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read read);
-    ~Reel(); // waits for what is being read
+    ~Reel(); // waits for the current read
     Reel(const Reel &) = delete;
     Reel &operator=(const Reel &) = delete;
 
-    // Reads it where it is not held, and throws what that throws. By any number of threads.
+    // Returns the frame of the file; reads it if it is not held, and throws that read's errors. Any number of threads
+    // may call it.
     Held at(const std::string &path);
 
-    std::size_t held() const; // how many files
+    std::size_t held() const; // number of files
     bool holds(const std::string &path) const;
 
 private:
@@ -48,12 +50,12 @@ private:
     Read read_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<std::size_t, Held> held_; // by their number
-    std::vector<bool> bad_;            // that could not be read ahead
+    std::map<std::size_t, Held> held_; // by the file's number
+    std::vector<bool> bad_;            // files that could not be read ahead
     std::size_t last_asked_ = 0;
     std::uint64_t held_bytes_ = 0, largest_ = 0; // largest: of all frames so far
     bool forwards_ = true, reading_ = false, closing_ = false;
-    std::thread reader_; // last: it uses the others; none where there is one file
+    std::thread reader_; // last: it uses the members above; none for a single file
 };
 
 } // namespace sparselens

@@ -23,7 +23,8 @@ bool may_come_in(const HttpRequest &request, const std::string &key) {
            same_key(key, request.key);
 }
 
-// The page loads nothing and may be shown in no frame; its address, which has the key, is told to nobody.
+// The page loads nothing from elsewhere, cannot be shown inside another page, and sends its address, which has the key,
+// to nobody.
 HttpAnswer page_answer() {
     const std::string nonce = random_key();
     HttpAnswer answer{.type = "text/html; charset=utf-8"};
@@ -45,7 +46,7 @@ struct Route {
     const char *type;
     std::function<std::optional<std::string>(const Asked &)> answer;
 };
-using Routes = std::map<std::string, Route>; // by their paths
+using Routes = std::map<std::string, Route>; // by path
 
 Routes routes_of(Viewer &viewer) {
     constexpr const char *json = "application/json", *bytes = "application/octet-stream";

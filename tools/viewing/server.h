@@ -1,7 +1,7 @@
-// The viewer on a port of this machine, for browsers.
+// Serves the viewer to browsers on a port of this machine.
 //
-// Requests come from the loopback device alone, name this machine, know the key (door.h) and are small (http_request.h, asked.h).
-// Refused requests get 403, malformed ones 400, and a page that has asked for something newer gets 409.
+// Requests must come from the loopback device, name this machine, know the key (door.h) and be small (http_request.h,
+// asked.h). Refused requests get 403, malformed ones 400, and a page that has asked for something newer gets 409.
 #pragma once
 
 #include "viewing/viewer.h"
@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// Serves until the process ends. `ready` is told the port. Throws Error if the port is not available.
+// Serves until the process ends. Calls `ready` with the port. Throws Error if the port is not available.
 void serve(Viewer &viewer, int port, const std::string &key, const std::function<void(int port)> &ready);
 
 } // namespace sparselens

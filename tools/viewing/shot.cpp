@@ -16,12 +16,13 @@ namespace sparselens {
 
 namespace {
 
-// The first of several is the one that a page uses; the others were tried on the way to it.
+// How many results are kept: a page uses the first, and tries others on the way to it.
 constexpr std::size_t most_small = 2;
 
 constexpr const char *shown_channels = "rgba";
 
-// What a file is read as: the focal length of its frame makes the lengths of rays planar.
+// Identifies how a file is read: its name and the focal length of the picture, which turns ray lengths into planar
+// depths.
 std::string name_of(const GatherCommand &options) {
     if (options.depth.meaning != DepthMeaning::distance) return options.input;
     return fmt::format("{}:{}:{}", options.input, options.lens.focal_length_mm.value_or(0),
@@ -34,7 +35,7 @@ std::vector<std::string> names_of(const std::vector<GatherCommand> &frames) {
     return names;
 }
 
-// By the options of the first frame of that name.
+// Reads a file with the options of the first frame that has its name.
 Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
     return [frames, &tool](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
@@ -43,8 +44,8 @@ Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext
     };
 }
 
-// The last one that is alike, else the result of `make`, which takes the place of the oldest of a few. Those of frames that have
-// been let go are let go.
+// Returns the last matching entry, else the result of `make`, which replaces the oldest of a few entries. Entries of
+// frames that are no longer held are dropped first.
 template <typename Kept, typename Alike, typename Make>
 const Kept &last_few(std::deque<Kept> &kept, const Alike &alike, const Make &make) {
     std::erase_if(kept, [](const Kept &one) { return one.of.expired(); });
@@ -110,7 +111,7 @@ ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, P
     if (options.windows.proxy > 1) {
         static_cast<TakenPicture &>(out) = take_picture(of->in, small(of, options.windows), request, work);
     } else {
-        give_back_memory(); // of drafts
+        give_back_memory(); // held by drafts
         static_cast<TakenPicture &>(out) = take_picture(of->unpacked(), request, work);
     }
     return out;

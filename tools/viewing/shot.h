@@ -1,4 +1,4 @@
-// The LDIs that are looked at: loaded once, gathered as often as somebody asks.
+// The LDIs that a page shows: read once, gathered for every request.
 #pragma once
 
 #include "chain/devices.h"
@@ -23,25 +23,25 @@ struct ShotPicture : TakenPicture {
 
 class Shot {
 public:
-    // Reads the file of the first of these frames, one at least. Throws as dof-gather does.
+    // Reads the file of the first of these frames (at least one). Throws as dof-gather does.
     Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool);
 
-    // The frame of which a picture is made; by any number of threads. Throws as dof-gather does.
+    // The frame that a picture is made of. Any number of threads may call it. Throws as dof-gather does.
     Reel::Held frame(const GatherCommand &options);
     const Reel &reel() const { return reel_; }
 
-    // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws. Who watches is told of
-    // pixels of the picture, where those are what is gathered.
+    // The picture that dof-gather would write; one thread at a time. Throws as dof-gather does, and what `progress`
+    // throws. `watch` is told of the picture's pixels only if these are gathered directly.
     ShotPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
                       const TileWatch *watch = nullptr);
 
-    // As PNG shows linear colours of the frame's space, after `exposure` stops.
+    // Converts linear colours of the frame's space for PNG, after `exposure` stops.
     static ShownPixels displayed(Image image, double exposure, const ShotFrame &frame);
 
 private:
-    // A frame as small as a proxy of it is.
+    // A frame reduced to the size of a proxy.
     struct Small {
-        std::weak_ptr<const ShotFrame> of; // which is held by the reel alone
+        std::weak_ptr<const ShotFrame> of; // only the reel owns it
         int proxy;
         PackedRows ldi;
         GatherWindows windows;

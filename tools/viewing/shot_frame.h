@@ -1,4 +1,4 @@
-// One LDI that is looked at, and what a page is told of it whatever its lens.
+// One LDI on display, and the facts about it that do not depend on the lens.
 #pragma once
 
 #include "deep/packed_rows.h"
@@ -12,11 +12,11 @@
 
 namespace sparselens {
 
-// The names of objects by their ids, as the manifests of Cryptomattes in the header have them.
+// Object id -> name, from the manifests of Cryptomattes in the header.
 using ObjectNames = std::map<std::uint32_t, std::string>;
 ObjectNames object_names(const Imf::Header &header);
 
-// The depths that the picture has, in (0, inf]; 1 and 1 where it has no samples. What images show counts too.
+// The range of depths in the picture, in (0, inf]; 1 and 1 if it has no samples. Depths of images count too.
 struct DepthExtent {
     double nearest = 1, farthest = 1;
 };
@@ -24,26 +24,26 @@ DepthExtent depth_extent(const Ldi &ldi);
 
 Ldi all_rows(const PackedRows &rows);
 
-// The LDI is held in half the memory.
+// An LDI in half the memory.
 struct ShotFrame {
-    OpenedLdi in;      // without its samples,
-    PackedRows packed; // which are here
+    OpenedLdi in;      // the file without its samples
+    PackedRows packed; // the samples
     int across = 1;    // sub-pixels of the LDI that become one pixel
     DepthExtent depths = {};
     ObjectNames names = {};
-    ColourTransform to_display = {}; // of its colours, as PNG shows them
+    ColourTransform to_display = {}; // from the file's colours to those of a PNG
 
     Ldi row(int y) const; // of the data window
     OpenedLdi unpacked() const;
 
-    // The camera and the lens of its picture. Throws as dof-gather does.
+    // The camera and the lens of the picture. Throws as dof-gather does.
     Camera camera(const PictureRequest &request) const;
     ThinLens lens(const PictureRequest &request) const; // for pixels of the picture
 };
 
-ShotFrame pack(OpenedLdi in); // nothing else is known of it
+ShotFrame pack(OpenedLdi in); // sets only `in` and `packed`
 
-// Throws Error where it has no R, G and B, which are what is shown.
+// Throws Error if the file has no R, G and B, which the page shows.
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);
 
 } // namespace sparselens

@@ -11,7 +11,7 @@ namespace sparselens {
 
 namespace {
 
-// Goes through the work to end it early.
+// An exception that ends the work early.
 struct Outdated {};
 
 } // namespace
@@ -48,7 +48,7 @@ std::optional<std::string> Studio::make(const std::string &page, Work work) {
     const auto before = std::ranges::find(waiting_, page, [](const auto &other) { return other->page; });
     if (before != waiting_.end()) {
         (*before)->outdated = true;
-        *before = job; // in its turn
+        *before = job; // keeps its turn
     } else if (waiting_.size() < most_waiting) {
         waiting_.push_back(job);
     } else {
@@ -95,7 +95,7 @@ void Studio::run() {
     }
 }
 
-// The answer is read by others only once the job is done.
+// The answer is read only after the job is done.
 void Studio::work_on(Job &job) {
     const auto watch = [&job] {
         if (job.outdated) throw Outdated();
@@ -109,7 +109,7 @@ void Studio::work_on(Job &job) {
         Progress progress(say, watch);
         job.answer = job.work(progress);
     } catch (const Outdated &) {
-        return; // nobody waits for it
+        return; // nobody waits for the answer
     } catch (...) {
         job.failure = std::current_exception();
     }

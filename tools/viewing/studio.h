@@ -1,5 +1,5 @@
-// One picture at a time: pages ask, a thread of its own works. What a page asks for anew takes the place of what it asked for
-// before, whether that waits or is at work; pages take turns.
+// Makes one picture at a time on a worker thread. A page's newer request replaces its older one, waiting or running;
+// pages take turns.
 #pragma once
 
 #include "base/progress.h"
@@ -18,10 +18,10 @@ namespace sparselens {
 
 class Studio {
 public:
-    // Makes the bytes of an answer. Ends early, by an exception of `Progress`, where nobody wants it any more.
+    // Makes the bytes of an answer. Ends early, by an exception of `Progress`, if the answer is no longer wanted.
     using Work = std::function<std::string(Progress &)>;
 
-    // What is being made for a page.
+    // The progress of a page's request.
     struct State {
         std::string stage;
         int percent = 0;
@@ -30,19 +30,19 @@ public:
     static constexpr std::size_t most_waiting = 16;
 
     Studio();
-    ~Studio(); // ends what is at work
+    ~Studio(); // ends the current work
     Studio(const Studio &) = delete;
     Studio &operator=(const Studio &) = delete;
 
-    // Waits for the answer; empty where the page has asked for something newer meanwhile. Rethrows what the work throws.
-    // Throws Error where more than `most_waiting` pages wait.
+    // Waits for the answer; empty if the page has asked for something newer meanwhile. Rethrows exceptions of the work.
+    // Throws Error if more than `most_waiting` pages wait.
     std::optional<std::string> make(const std::string &page, Work work);
 
-    // Empty where nothing is at work for the page.
+    // Empty if no work of the page is running.
     std::optional<State> state(const std::string &page) const;
 
-    std::size_t waiting() const;  // how many works are still to be begun
-    std::size_t finished() const; // how many works have come to their end
+    std::size_t waiting() const;  // works that have not begun
+    std::size_t finished() const; // works that have ended
 
 private:
     struct Job;
@@ -51,11 +51,11 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<std::shared_ptr<Job>> waiting_; // one a page at most
-    std::shared_ptr<Job> at_work_;             // null: none is
+    std::deque<std::shared_ptr<Job>> waiting_; // at most one per page
+    std::shared_ptr<Job> at_work_;             // null: no work is running
     std::size_t finished_ = 0;
     bool closing_ = false;
-    std::thread worker_; // last: it uses the others
+    std::thread worker_; // last: it uses the members above
 };
 
 } // namespace sparselens

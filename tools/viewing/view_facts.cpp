@@ -19,10 +19,10 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double sharp_px = 1; // as --show focus has it
+constexpr double sharp_px = 1; // as in --show focus
 constexpr std::size_t most_objects = 65535;
 
-// visit(name) for the objects that a sample is of, each matte's by descending coverage.
+// Calls visit(name) for the objects of a sample, for each matte by descending coverage.
 template <typename Visit>
 void for_each_object(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
                      const ObjectNames &names, const Visit &visit) {
@@ -41,7 +41,7 @@ Json objects_of(const Ldi &ldi, std::uint64_t sample, const ObjectNames &names) 
     return objects;
 }
 
-// The first name; empty where there is none.
+// The first object's name; empty if there is none.
 std::string object_of(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
                       const ObjectNames &names) {
     std::string first;
@@ -137,7 +137,7 @@ Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i
                     {"coc", json_number(circle_of_confusion(lens, double(seen_at)))},
                     {"rgb", colour},
                     {"objects", objects_of(ldi, i, frame.names)}};
-        if (seen_at != z) sample["image"] = short_number(seen_at); // of what it shows
+        if (seen_at != z) sample["image"] = short_number(seen_at); // depth of the image
         samples.push_back(sample);
     }
     return samples;

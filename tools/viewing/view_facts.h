@@ -1,4 +1,5 @@
-// What a page says beside the picture: of the lens, and of the samples of a pixel. As JSON, in which infinity is "inf".
+// Facts that a page shows beside the picture: about the lens, and the samples of a pixel. As JSON, with infinity as
+// "inf".
 #pragma once
 
 #include "viewing/shot.h"
@@ -9,14 +10,15 @@
 
 namespace sparselens {
 
-// Focus, f-number, what is sharp (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
+// Focus, f-number, sharp range (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
 nlohmann::json lens_facts(const ShotPicture &picture);
 
 // The samples of a pixel of the picture (of its middle sub-pixel), front to back: depth, CoC, alpha, colour, objects.
 nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);
 
-// The objects that the pixels of the picture show in front. `said`: their names, and the focus and the hyperfocal distance of
-// the widest lens that is sharp all over each. `numbers`: two bytes for each pixel, the lower first: which it is, from 1 to 65535; 0: none, or one of more.
+// The frontmost objects in the pixels of the picture. `said`: for each object its name, and focus and hyperfocal
+// distance of the widest lens for which all of it is sharp. `numbers`: two bytes for each pixel, the lower first: the
+// object's number, from 1 to 65535; 0: no object, or one beyond 65535.
 struct ObjectMap {
     nlohmann::json said;
     std::vector<std::uint8_t> numbers;

@@ -19,18 +19,18 @@ namespace sparselens {
 
 namespace {
 
-// Options of dof-view alone; the flags take no value.
+// Options that only dof-view has; the flags take no value.
 constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "-v", "--verbose"};
-// Options of pictures of dof-gather that take no value.
+// Picture options of dof-gather that take no value.
 constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused", "--unpremultiplied"};
 
-// What a page may set beside the looks that are numbers.
+// Options that a page may set, besides the looks that are numbers.
 constexpr std::array settable{
     "fstop",      "lens-radius", "focus-distance",       "quality",          "proxy", "show",
     "lens-point", "tilt",        "axial-chromatic-type", "cat-eye-darkening"};
 
-// What goes where an option is set that says the same in another way.
+// Setting `option` removes `other`, which says the same in another way.
 struct InPlaceOf {
     const char *option, *other;
 };
@@ -49,7 +49,7 @@ bool is_settable(const std::string &option) {
 std::string name_of(const std::string &word) { return word.substr(0, word.find('=')); }
 bool has_own_value(const std::string &word) { return word.find('=') != std::string::npos; }
 
-// The words without those options and their values, which the next word is where the same does not hold it.
+// The words without the options that `leaves` accepts and their values, which may be the next word.
 template <typename Leaves>
 Words without(const Words &words, const Leaves &leaves) {
     Words kept;
@@ -78,7 +78,7 @@ bool is_number(const std::string &text) {
     return !text.empty() && *end == '\0' && std::isalpha(static_cast<unsigned char>(text.back())) == 0;
 }
 
-// As a keyword of Python: numbers as they are, pairs in brackets, all else as text.
+// Spells a value as a keyword argument in Python: numbers as they are, pairs in brackets, all else as text.
 std::string python_value(const std::string &option, const std::string &value) {
     if (is_among(picture_flags, option)) return "True";
     if (option == "--holdout") return "sparselens.open_ldi(" + quoted(value) + ")";
@@ -151,7 +151,7 @@ Words words_for(const Words &words, const std::string &output) {
 
 std::string shell_command(const Words &words, const std::string &output) {
     return command_line("dof-gather", words) + " -o" +
-           command_line("", {output}); // after a blank, quoted if need be
+           command_line("", {output}); // quoted if needed, after a blank
 }
 
 std::string python_script(const Words &words, const std::string &input, const std::string &output) {

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::string with_bytes(const Json &said, const std::vector<std::uint8_t> &bytes) {
-    // What a file or a message holds need not be UTF-8.
+    // Text from a file or a message may not be UTF-8.
     const std::string json = said.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string answer;
     answer.reserve(4 + json.size() + bytes.size());
@@ -40,8 +40,8 @@ std::string stem_of(const std::string &path) {
     return path == "-" ? "picture" : std::filesystem::path(path).stem().stem().string();
 }
 
-// The name of a file or a sequence of pictures made from such a one, which is another: before the number of the frame, if it has
-// one, stands "dof".
+// The name of a file or sequence of pictures made from `input`; it differs from it by "dof", placed before the frame's
+// number if there is one.
 std::string output_name(const std::string &input, const std::string &ending) {
     std::string name = input == "-" ? "picture" : std::filesystem::path(input).filename().string();
     for (const std::string_view last : {".exr", ".ldi"})
@@ -144,7 +144,7 @@ std::shared_ptr<const ShotPicture> Viewer::taken(const Words &words, const Gathe
         const std::lock_guard lock(last_mutex_);
         if (last_ && last_->words == words) return last_->picture;
     }
-    if (command.windows.proxy == 1) { // two at a time would take the memory of one
+    if (command.windows.proxy == 1) { // frees the last picture first: two would take twice the memory
         const std::lock_guard lock(last_mutex_);
         last_.reset();
     }
@@ -172,7 +172,7 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
     return with_bytes(said, pixels.values);
 }
 
-// Those of its pixels that are shown.
+// Adds the part of the tile that is displayed.
 void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
                        const Imath::Box2i &tile) {
     const Imath::Box2i &display = picture.windows.display;
@@ -198,7 +198,7 @@ std::string Viewer::pieces(const Asked &asked) {
 
 std::optional<std::string> Viewer::picture(const Asked &asked) {
     const Words words = words_of(asked);
-    command_of(words); // what is wrong in it is said without waiting
+    command_of(words); // reports errors without waiting
     return studio_.make(asked.page,
                         [this, words, asked](Progress &progress) { return answer(words, asked, progress); });
 }
@@ -260,7 +260,7 @@ std::string Viewer::commands(const Asked &asked) const {
     const std::string ending = "." + asked.format;
     const std::string input = command_of(words_of(asked)).input, output = output_name(input, ending);
     const Words words = words_for(words_of(asked), output);
-    // The name of the files of all frames stands where that of the first does.
+    // The input of all frames is the word of words_ at the index that the first frame's input has in its own words.
     const Words first = picture_words(frames_.words(0));
     std::string range = words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())];
     range = output_name(range, file_at(range, 1) == range ? ".####" + ending : ending);

@@ -1,4 +1,4 @@
-// What dof-view answers to what its pages ask. Knows nothing of HTTP.
+// Answers the requests of dof-view's pages. Independent of HTTP.
 #pragma once
 
 #include "harness/commands/frames.h"
@@ -21,34 +21,33 @@ struct ViewOptions {
     std::string reference, save; // a file; a folder; empty: none
     std::string frames;          // read by FrameCommands
     Presets presets = {};
-    int port = 0;      // 0: any that is free
-    bool open = false; // a browser
+    int port = 0;      // 0: any free port
+    bool open = false; // open a browser
 };
 
 class Viewer {
 public:
-    // Reads the files of the first frame. `words` are those of the command line, without the program, and `frames` the same
-    // for each frame; `options` are of the first. Throws as dof-gather does.
+    // Reads the files of the first frame. `words`: the command line without the program; `frames`: the same for each
+    // frame; `options`: of the first frame. Throws as dof-gather does.
     Viewer(const ViewOptions &options, const Words &words, const FrameCommands &frames,
            const ToolContext &tool);
 
-    // JSON: what does not change with the lens: size, looks, options, frames.
+    // JSON: the facts that do not change with the lens: size, looks, options, frames.
     std::string facts(const Asked &asked);
 
-    // Each is the length of some JSON (4 bytes, the lowest first), that JSON, and 8-bit pixels by rows; empty where the page
-    // has asked for something newer. Throws UsageError where there is no such picture.
-    // Of a picture that is asked for with a pixel, tiles are made from there outwards, and may be asked for before it is there.
+    // Each returns the length of some JSON (4 bytes, the lowest first), that JSON, and 8-bit pixels by rows; empty if
+    // the page has asked for something newer. Throws UsageError if there is no such picture. If a pixel is given, tiles
+    // are made from there outwards, and pieces() returns them before the picture is complete.
     std::optional<std::string> picture(const Asked &asked);
-    std::string
-    pieces(const Asked &asked); // of which the JSON says the places, and the pixels follow each other
+    std::string pieces(const Asked &asked); // the JSON gives their positions; their pixels follow in order
     std::optional<std::string> reference(const Asked &asked);
     std::optional<std::string> rendered(const Asked &asked); // without depth of field
 
-    // In that form too, with the two bytes of ObjectMap for each pixel.
+    // In the same form, with the two bytes of ObjectMap for each pixel.
     std::string objects(const Asked &asked);
 
-    // JSON: the samples of a pixel, and its value in the last picture; how far the picture of the page is; the commands that
-    // make it elsewhere, of a range of frames as words; the name of the PNG that was written (--save).
+    // JSON: the samples of a pixel, and its value in the last picture; the progress of the page's picture; the commands
+    // that make it elsewhere, with a range of frames as words; the name of the PNG that was written (--save).
     std::string samples(const Asked &asked);
     std::string progress(const Asked &asked) const;
     std::string commands(const Asked &asked) const;
@@ -59,7 +58,7 @@ private:
     Words words_of_frame(std::size_t i) const;
     Words words_of(const Asked &asked) const;
     GatherCommand command_of_frame(const Asked &asked) const;
-    const Image &reference_of(const std::string &path); // while its mutex is held
+    const Image &reference_of(const std::string &path); // the caller holds its mutex
     std::shared_ptr<const ShotPicture> taken(const Words &words, const GatherCommand &command,
                                              Progress &progress, const TileWatch *watch = nullptr);
     void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
@@ -67,8 +66,8 @@ private:
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
 
     ViewOptions options_;
-    Words words_; // those that make the pictures, of all frames
-    Words guess_; // of the lens, after them
+    Words words_; // of the pictures, for all frames
+    Words guess_; // for the lens, appended to words_
     FrameCommands frames_;
     const ToolContext &tool_;
     Shot shot_;
@@ -77,8 +76,8 @@ private:
         Image image;
     };
     std::mutex reference_mutex_;
-    std::optional<Reference> reference_; // the last one that was asked for
-    // The last picture and what made it, which may be shown in another exposure.
+    std::optional<Reference> reference_; // the last one requested
+    // The last picture and its settings; it can be shown at another exposure.
     struct Last {
         Words words;
         int proxy = 1;
@@ -88,7 +87,7 @@ private:
     std::optional<Last> last_;
     Pieces pieces_;
     int saved_ = 0;
-    Studio studio_; // last: it works with the others
+    Studio studio_; // last: it works with the members above
 };
 
 } // namespace sparselens

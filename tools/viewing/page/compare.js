@@ -1,7 +1,8 @@
 'use strict';
 
-// Two pictures of one size, one above the other in `stack`. Slide: the upper one is seen left of a border at `share` percent;
-// flip: all of it, or for a share below a half none; difference: eight times that of the two.
+// Shows two pictures of one size, one above the other in `stack`. slide: the upper one shows left of a border at
+// `share` percent; flip: the upper one shows if `share` is at least 50, else the lower one; difference: eight times
+// their difference.
 function compare(stack, above, mode, share) {
     stack.classList.toggle('difference', mode === 'difference');
     const left = mode === 'slide' ? share : mode === 'flip' && share < 50 ? 0 : 100;

@@ -16,7 +16,7 @@ function fit() {
     showPlace();
 }
 
-// What lies at (x, y) of the window stays there; the middle, where no place is given.
+// Zooms about (x, y) in the window; about the middle if no point is given.
 function zoomBy(factor, x, y) {
     const frame = part('frame').getBoundingClientRect();
     const at = { x: (x ?? frame.left + frame.width / 2) - frame.left, y: (y ?? frame.top + frame.height / 2) - frame.top };
@@ -56,7 +56,7 @@ const moveAperture = (stops) => {
     set(aperture(), asText(Math.min(apertureNow(), 1e4) * by, 4));
 };
 
-// What is out of focus may be too blurred to be seen: beside the pointer stands how far away it is.
+// Shows the depth beside the pointer, because what is out of focus may be too blurred to be recognised.
 function moveDepth(event, shown) {
     const frame = part('frame').getBoundingClientRect();
     part('depth').hidden = !shown;
@@ -115,7 +115,7 @@ function startPointer() {
         if (event.ctrlKey) zoomBy(1.25 ** notches, event.clientX, event.clientY);
         else moveFocus(2 * notches);
     }, { passive: false });
-    new ResizeObserver(() => place.fitted ? fit() : showPlace()).observe(frame); // of the window, or of what is beside it
+    new ResizeObserver(() => place.fitted ? fit() : showPlace()).observe(frame); // of the window, or of the panel
 }
 
 const keys = {

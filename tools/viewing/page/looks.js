@@ -1,7 +1,7 @@
-// The looks of the lens: presets, numbers, and the few that are neither. Each row knows how to show what is set.
+// The looks of the lens: presets, numbers, and a few other controls. Each row can show its current setting.
 const rows = [];
 
-// As people say it who choose lenses; the option is in the row's title.
+// The photographer's name of each look; the row's title names the option.
 const lookWords = {
     'blade-curvature': 'blade roundness', 'blade-rotation': 'blade rotation, \u00b0', squeeze: 'anamorphic squeeze', spherical: 'soap bubbles',
     'cat-eye': "cat's eye", 'cat-eye-darkening': "cat's eye darkens", 'axial-chromatic': 'colour fringes, mm', 'axial-chromatic-type': 'fringe colours',
@@ -20,7 +20,7 @@ function lookRow(option, help, show, ...controls) {
     rows.push(show);
 }
 
-// A choice of words, of which the first means what the file or the command line says.
+// Adds a choice of words; the first one means the value from the file or the command line.
 function addChoice(option, help, first, words) {
     const select = document.createElement('select');
     select.id = 'look_' + option;
@@ -51,7 +51,7 @@ function addNumbers() {
     }
 }
 
-// Two angles, which are one option.
+// Adds two angles that form one option.
 function addTilt() {
     const fields = ['X', 'Y'].map((axis) => {
         const field = document.createElement('input');

@@ -1,4 +1,4 @@
-// What was set: as steps that can be undone, and in the address, where a reload or another dof-view finds it.
+// The settings, as steps that can be undone, and in the address, from which a reload or another dof-view restores them.
 const past = { steps: [], at: -1 };
 
 function snapshot() {
@@ -6,7 +6,7 @@ function snapshot() {
     return JSON.stringify({ settings, exposure, frame, keys, range: timeRange(), smooth: part('smooth').checked, format: part('format').value });
 }
 
-// What has changed is a step of its own; where only the frame has, it takes the place of the last.
+// Records a change as a new step; if only the frame has changed, replaces the last step.
 function remember(onlyMoved = false) {
     const now = snapshot();
     if (time.playing || now === past.steps[past.at]) return;

@@ -1,4 +1,5 @@
-// Objects by the Cryptomattes of the file: the one under the pointer is outlined and named, and a lens can be found for it.
+// Objects from the file's Cryptomattes: the one under the pointer is outlined and named, and a lens can be found for
+// it.
 const objects = { list: null, numbers: null, asked: false, shown: 0, fade: 0 };
 
 async function loadObjects() {
@@ -14,13 +15,13 @@ function forgetObjects() {
     [objects.list, objects.numbers, objects.asked] = [null, null, false];
 }
 
-// The number of the object that a pixel shows, 0 for none.
+// The number of the object at a pixel, 0 for none.
 function objectAt([x, y]) {
     const { width, min } = state.facts;
     return objects.numbers ? objects.numbers[(y - min[1]) * width + x - min[0]] : 0;
 }
 
-// Marks the pixels of the object that lie beside others.
+// Marks the pixels of the object that have a neighbour outside it.
 function outline(number) {
     if (number === objects.shown) return;
     objects.shown = number;
@@ -33,7 +34,7 @@ function outline(number) {
     draw(part('marks'), data);
 }
 
-// It is seen while the pointer moves, and not where the picture is judged.
+// Shows the outline while the pointer moves, but not in comparisons and false colours.
 function fadeOutline() {
     const marks = part('marks');
     clearTimeout(objects.fade);
@@ -41,7 +42,7 @@ function fadeOutline() {
     objects.fade = setTimeout(() => marks.classList.add('still'), 1000);
 }
 
-// Focuses so, and stops down so far, that all of the object is sharp; no wider than the lens is now.
+// Sets focus and aperture so that the whole object is sharp; the aperture never becomes wider than now.
 function sharpen(pixel) {
     const object = objects.list?.[objectAt(pixel) - 1];
     if (!object) return false;

@@ -1,4 +1,4 @@
-// What lies beside and over the picture: another picture to compare with, false colours, and what a pixel holds.
+// Overlays and neighbours of the picture: a picture to compare with, false colours, and the samples of a pixel.
 const comparing = { mode: '', share: 50, target: '', kept: null };
 
 function showCompared() {
@@ -11,7 +11,7 @@ function showCompared() {
     for (const name of ['slide', 'flip', 'difference']) part(name).classList.toggle('on', comparing.mode === name);
 }
 
-// Which picture is on which side of the wipe, or is shown.
+// Says which picture is on which side of the wipe, or is shown.
 function saySides() {
     const [left, right] = [part('side_left'), part('side_right')], other = part('with').selectedOptions[0]?.textContent ?? '';
     left.hidden = !comparing.mode;
@@ -23,7 +23,7 @@ function saySides() {
     right.style.left = part('border').style.left;
 }
 
-// What false colours mean, as false_colour.h has them.
+// The meanings of the false colours, which false_colour.h defines.
 const legends = {
     focus: [['#008000', 'sharp: a CoC below 1 px']],
     coc: [['#00f', 'in front of focus'], ['#fff', 'in focus'], ['#f00', 'behind it; half of the colour at a CoC of 8 px']],
@@ -40,7 +40,7 @@ function sayLegend() {
     }));
 }
 
-// Chosen again, a mode ends; flip goes to the other picture first.
+// Choosing the active mode again ends it; flip shows the other picture first.
 async function setComparing(mode) {
     if (mode === 'flip' && comparing.mode === 'flip' && comparing.share >= 50) comparing.share = 0;
     else if (mode === comparing.mode) [comparing.mode, comparing.share] = ['', 50];
@@ -49,7 +49,7 @@ async function setComparing(mode) {
     showCompared();
 }
 
-// Draws what is compared with. As rendered is the picture of a lens without aperture.
+// Draws the picture to compare with. "As rendered" is taken by a lens without aperture.
 async function loadTarget() {
     if (!comparing.mode) return;
     comparing.target = part('with').value;
@@ -82,7 +82,7 @@ function setOverlay(name) {
     changed();
 }
 
-// The eye in the lens: seen through one point of it, of which the disc beside the picture says where it is.
+// Looks through one point of the lens, which the disc beside the picture shows.
 function setEye(eye) {
     const far = eye ? Math.max(1, Math.hypot(...eye)) : 1;
     state.eye = eye && eye.map((along) => along / far);
@@ -97,7 +97,7 @@ function setEye(eye) {
 
 const listed = { on: false, pixel: null, asking: false, again: null };
 
-// The pixel under the pointer: its value, and the list of its samples where that is shown.
+// Shows the value of the pixel under the pointer, and its samples if the list is open.
 async function sayPixel(pixel) {
     if (listed.asking) {
         listed.again = pixel;

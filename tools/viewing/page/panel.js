@@ -1,9 +1,9 @@
-// The panel beside the picture: what the lens is, and the controls that set it.
+// The panel beside the picture: the facts about the lens, and the controls that set it.
 const aperture = () => state.facts.fstop === undefined ? 'lens-radius' : 'fstop';
 const focusNow = () => asNumber(state.settings['focus-distance'] ?? state.lens?.focus ?? state.facts.focus);
 const apertureNow = () => asNumber(state.settings[aperture()] ?? (aperture() === 'fstop' ? state.facts.fstop : state.lens?.radius));
 
-// What was typed is set where the server takes it; else what was there stays.
+// Sets the typed value if the server accepts it; else the old value stays.
 async function typed(option, text, field) {
     try {
         await ask('commands', { settings: { ...state.settings, [option]: text } });
@@ -15,7 +15,7 @@ async function typed(option, text, field) {
     set(option, text);
 }
 
-// A field shows the text unless somebody writes in it.
+// Shows the text in a field unless the user is writing in it.
 function fillField(field, text) {
     if (document.activeElement === field && field.writing) return;
     field.value = text;
@@ -36,7 +36,7 @@ function set(option, value) {
     changed();
 }
 
-// Sliders of what may be any size go by its logarithm.
+// Sliders are logarithmic, because focus and aperture can have any size.
 function range(id) {
     const near = asNumber(state.facts.nearest) / 2, far = asNumber(state.facts.farthest);
     if (id === 'focus') return [near, Math.max(Number.isFinite(far) ? far * 1.2 : near * 1e4, near * 10)];
@@ -70,7 +70,7 @@ function sayControls() {
     for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).classList.toggle('on', state.overlay === name);
 }
 
-// By their language.
+// The commands, by language.
 async function commandsNow() {
     return (await ask('commands', { settings: withQuality(settingsNow(), state.quality), format: part('format').value })).json();
 }
@@ -85,7 +85,7 @@ async function copyText(text) {
     let copied = true;
     try {
         await navigator.clipboard.writeText(text);
-    } catch { // a browser that does not allow it
+    } catch { // the browser does not allow it
         copied = document.execCommand('copy');
     }
     part('command').blur();

@@ -1,18 +1,18 @@
-// The picture: while something moves, drafts of a proxy that is as fine as ten a second allow; then all of it.
+// The picture: while settings change, drafts at the finest proxy that allows ten a second; then the whole picture.
 const proxies = [1, 2, 3, 4, 6, 8, 12, 16];
 const state = {
     facts: null,
     settings: {},    // options of dof-gather that this page has set
-    quality: 'normal', // of the last whole picture that was asked for
+    quality: 'normal', // of the last whole picture requested
     exposure: 0,
-    eye: null,       // the point of the lens that is looked through: [right, up] of its middle, 1 at the rim; null: all
-    overlay: '',     // what --show shows in place of the picture
-    lens: null,      // what the server says of the lens of the last picture
+    eye: null,       // the lens point that is looked through: [right, up] from its middle, 1 at the rim; null: all
+    overlay: '',     // the value of --show: false colours instead of the picture
+    lens: null,      // what the server reports of the last picture's lens
     began: undefined, // the aperture of the first picture
 };
 const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false, pointer: null, pieces: 0 };
 
-// What makes the picture, without what is for drafts.
+// The settings that make the picture, without those of drafts.
 function settingsNow() {
     const settings = { ...state.settings };
     if (state.overlay) settings.show = state.overlay;
@@ -36,7 +36,7 @@ function draw(canvas, data) {
     canvas.getContext('2d').putImageData(data, 0, 0);
 }
 
-// Shows the answer, where it is one.
+// Shows the answer, if there is one.
 async function show(response, quality) {
     if (!response) return null;
     const { said, data } = await pictureOf(response);
@@ -49,14 +49,14 @@ async function show(response, quality) {
     return said;
 }
 
-// Finer where there is time, coarser where there is none.
+// Chooses a finer proxy if there is time, a coarser one if not.
 function choose(milliseconds) {
     const aim = 100, now = proxies[flow.level];
     if (milliseconds > aim && flow.level + 1 < proxies.length) ++flow.level;
     else if (flow.level > 0 && milliseconds * (now / proxies[flow.level - 1]) ** 2 < 0.8 * aim) --flow.level;
 }
 
-// Something has changed: drafts of it, then the whole.
+// Handles a changed setting: makes drafts, then the whole picture.
 async function changed() {
     clearTimeout(flow.rest);
     say('');
@@ -81,7 +81,7 @@ async function changed() {
 
 async function draft() {
     await knowFrame();
-    if (state.overlay) return; // false colours are of the pixels that they are made of
+    if (state.overlay) return; // false colours describe the full-size pixels
     const begun = performance.now(), proxy = proxies[flow.level];
     const settings = withQuality(proxy > 1 ? { ...settingsNow(), proxy: String(proxy) } : settingsNow(), 'draft');
     const response = await ask('picture', { settings, exposure: exposureNow() });
@@ -89,15 +89,15 @@ async function draft() {
     const taken = performance.now() - begun;
     part('speed').textContent = 'draft at 1/' + proxy + ': ' + Math.round(taken) + ' ms';
     choose(taken);
-    await new Promise(requestAnimationFrame); // it is seen before the next begins
+    await new Promise(requestAnimationFrame); // until the draft is on screen
 }
 
-// The whole picture. Sends off what a change of settings ends.
+// Makes the whole picture. A newer change of settings ends the request.
 async function full(quality) {
     const turn = ++flow.full, begun = performance.now();
     state.quality = quality;
     remember();
-    sayCommand().catch(() => {}); // what is wrong, the picture says
+    sayCommand().catch(() => {}); // the picture reports errors
     flow.slow = setTimeout(() => watch(turn), 500);
     showPieces(turn).catch(() => {});
     try {
@@ -121,7 +121,7 @@ function middle() {
     return [min[0] + (width >> 1), min[1] + (height >> 1)];
 }
 
-// Tiles of the picture as they are made, over the draft.
+// Draws tiles of the picture over the draft as they are made.
 async function showPieces(turn) {
     const canvas = part('above'), { min, width, height } = state.facts;
     for (;;) {
@@ -148,7 +148,7 @@ function enlarge(canvas, width, height) {
     canvas.getContext('2d').drawImage(before, 0, 0, width, height);
 }
 
-// The same picture in another exposure.
+// Shows the same picture at another exposure.
 async function reshow() {
     flow.reshow = true;
     if (flow.reshowing) return;
@@ -160,7 +160,7 @@ async function reshow() {
     flow.reshowing = false;
 }
 
-// How far the picture is, while it is made.
+// Shows the progress of the picture.
 async function watch(turn) {
     while (turn === flow.full) {
         const said = await (await ask('progress', {})).json();

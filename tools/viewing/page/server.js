@@ -1,22 +1,22 @@
-// What the server is asked, and what it answers.
+// Requests to the server, and its answers.
 const key = new URLSearchParams(location.search).get('key');
 const page = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => (byte % 36).toString(36)).join('');
 const part = (id) => document.getElementById(id);
 
-// The response; null where this page has asked for something newer. Throws what the server says is wrong.
+// Returns the response; null if this page has asked for something newer. Throws the server's error message.
 async function ask(path, asked) {
     const body = JSON.stringify({ page, ...(state.facts?.frames && { frame: time.frame }), ...asked });
     const response = await fetch('/' + path, { method: 'POST', headers: { 'X-Sparselens-Key': key }, body }).catch(() => null);
     if (!response || response.status === 403) {
         lose();
-        throw new Error(''); // the bar says it
+        throw new Error(''); // the bar reports it
     }
     if (response.status === 409) return null;
     if (!response.ok) throw new Error((await response.text()).trim());
     return response;
 }
 
-// Without a server the page keeps what it has, says so in a bar, and goes on as soon as it answers.
+// If the server is lost, the page keeps its state, says so in a bar, and continues as soon as the server answers.
 const server = { lost: false };
 
 function lose() {
@@ -52,14 +52,14 @@ function startServer() {
     });
 }
 
-// The JSON of an answer, and the bytes after it.
+// Splits an answer into its JSON and the bytes after it.
 async function apart(response) {
     const bytes = await response.arrayBuffer();
     const size = new DataView(bytes).getUint32(0, true);
     return { said: JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size))), bytes: new Uint8Array(bytes, 4 + size) };
 }
 
-// Those of them that are the pixels of a picture, as an ImageData.
+// Makes an ImageData of the bytes that are a picture's pixels.
 function imageOf({ width, height, channels }, from) {
     const count = width * height, data = new Uint8ClampedArray(4 * count);
     if (channels === 4) data.set(from);
@@ -77,7 +77,7 @@ async function pictureOf(response) {
     return { said, data: imageOf(said, bytes) };
 }
 
-// A message at the foot of the picture, until the next: of what went wrong, or a note.
+// Shows a message at the foot of the picture until the next one: an error, or a note.
 function say(text, isNote = false) {
     part('said').textContent = text;
     part('said').classList.toggle('note', isNote);
@@ -86,5 +86,5 @@ function say(text, isNote = false) {
 
 const asNumber = (value) => value === 'inf' ? Infinity : Number(value);
 const asText = (value, digits = 4) => Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : Number.isNaN(value) ? '' : 'inf';
-// What a depth is measured in.
+// The unit of depth.
 const unit = () => ({ 1: 'm', 0.01: 'cm', 0.001: 'mm' })[state.facts.metres_per_unit] ?? 'units';

@@ -1,4 +1,4 @@
-// Where the page begins.
+// Starts the page.
 async function start() {
     startServer();
     state.facts = await (await ask('facts', {})).json();

@@ -1,9 +1,10 @@
-// Time: the frames of a sequence, and keys of the lens over frames. Between two keys values are linear, or smooth: slow at both; beyond the first and the last
-// they stay, as the keys of dof-gather do.
-const time = { frame: 1, keys: {}, known: null, settled: null, playing: false }; // keys: { option: { frame: value } }; known, settled: the frame of state.facts, and of the objects
+// Time: the frames of a sequence, and keys of the lens over frames. Between two keys, values are linear, or smooth
+// (slow at both ends). Before the first key and after the last they are constant, as with the keys of dof-gather.
+// keys: { option: { frame: value } }; known, settled: the frame of state.facts, and of the objects.
+const time = { frame: 1, keys: {}, known: null, settled: null, playing: false };
 const timeRange = () => [Number(part('first').value), Number(part('last').value)];
 
-// The numbers of the frames: those of the sequence, else all of the range.
+// The numbers of the frames: of the sequence, else all of the range.
 function frameNumbers() {
     const [first, last] = timeRange();
     if (!state.facts.frames) return Array.from({ length: Math.max(1, last - first + 1) }, (_, i) => first + i);
@@ -11,13 +12,13 @@ function frameNumbers() {
     return within.length ? within : state.facts.frames;
 }
 
-// As --frames takes them.
+// The frames as a value of --frames.
 function frameText() {
     const frames = frameNumbers(), [first, last] = [frames[0], frames.at(-1)];
     return frames.length > 1 && last - first + 1 === frames.length ? first + '-' + last : frames.join(',');
 }
 
-// What a key is of: focus and f-number, and the looks that were set or have keys.
+// The values that a key records: focus and f-number, and the looks that are set or have keys.
 function keyedNow() {
     const looks = state.facts.looks.map((look) => look.name).filter((name) => !name.startsWith('highlight'));
     const set = looks.filter((name) => name in time.keys || name in state.settings);
@@ -49,7 +50,7 @@ function valueAt(keys, frame) {
     return keys[before] + (keys[after] - keys[before]) * moved;
 }
 
-// To the nearest frame there is.
+// Goes to the nearest existing frame.
 async function goTo(frame) {
     time.frame = frameNumbers().reduce((best, each) => Math.abs(each - frame) < Math.abs(best - frame) ? each : best);
     for (const [option, keys] of Object.entries(time.keys)) state.settings[option] = asText(valueAt(keys, time.frame), 9);
@@ -63,20 +64,20 @@ function step(by) {
     return goTo(frames[Math.min(frames.length - 1, Math.max(0, frames.indexOf(time.frame) + by))]);
 }
 
-// Frame after frame, each as soon as the one before is seen, and round again.
+// Plays the frames in a loop, each as soon as the one before is on screen.
 async function play() {
     time.playing = !time.playing;
     part('play').classList.toggle('on', time.playing);
     while (time.playing) {
         const frames = frameNumbers();
         await goTo(frames[(frames.indexOf(time.frame) + 1) % frames.length]);
-        if (state.overlay) await full('normal'); // which has no drafts
+        if (state.overlay) await full('normal'); // false colours have no drafts
         await new Promise(requestAnimationFrame);
     }
     remember(true);
 }
 
-// What the frame has, before it is shown: its size, its depths and its lens may be others.
+// Asks for the facts of the frame before it is shown, because its size, depths and lens may differ.
 async function knowFrame() {
     if (!state.facts.frames || time.known === time.frame) return;
     const frame = time.frame;
@@ -87,28 +88,28 @@ async function knowFrame() {
     if (place.fitted) fit();
 }
 
-// What takes longer, once the page rests there.
+// Loads what takes longer, once the page rests on the frame.
 async function knowMore() {
     if (!state.facts.frames || time.settled === time.known || time.playing) return;
     time.settled = time.known;
     await Promise.all([loadObjects(), loadTarget()]);
 }
 
-// Frames and values of an option: its keys, or where they are smooth every frame.
+// Frames and values of an option: its keys, or every frame if they are smooth.
 function baked(option) {
     const keys = time.keys[option] ?? {}, frames = part('smooth').checked ? frameNumbers() : Object.keys(keys).map(Number);
     return frames.map((frame) => [frame, asText(valueAt(keys, frame), 9)]);
 }
 
-// A word as a shell reads it.
+// Quotes a word for a shell.
 const quoted = (word) => /^[-\w=+,./:@%#]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
 
-// The command for frames: that of one, with keys for values.
+// The command for a range of frames: the command of one frame, with keys as values.
 async function rangeCommand(frames) {
     const { range, range_output } = await commandsNow(), words = [];
     for (let i = 0; i < range.length; ++i)
         if (!(range[i].replace(/^--|=.*$/gs, '') in time.keys)) words.push(range[i]);
-        else if (!range[i].includes('=')) ++i; // its value
+        else if (!range[i].includes('=')) ++i; // and its value
     for (const option of Object.keys(time.keys)) words.push('--' + option, baked(option).map((pair) => pair.join(':')).join(','));
     return ['dof-gather', ...words.map(quoted), '--frames', frames, '-o', quoted(range_output)].join(' ');
 }
