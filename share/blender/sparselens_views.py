@@ -3,15 +3,15 @@ from the rim of the lens.
 
 As a script:
     blender -b shot.blend -P sparselens_views.py -- -o DIR [--help]
-With the folder sparselens_blender, which lies beside it. That is the add-on,
-too; README.md says how it is installed, and what is written.
+It needs the folder sparselens_blender beside it, which is also the add-on;
+README.md says how to install it, and what is written.
 
 Each view is a pinhole picture. It is rendered through a camera that this
-script makes, and which stands where the scene's camera stands at that frame,
-moved in the plane of the lens by the radius of the lens, focal length /
-(2 f-number). Nothing animates the made camera, so the render cannot move it;
-the scene's own camera is only read, after keys, drivers and constraints have
-been evaluated. Works with Cycles and EEVEE.
+script makes. That camera stands where the scene's camera stands at the frame,
+moved in the plane of the lens by the radius of the lens, focal length / (2
+f-number). Nothing animates the made camera, so the render cannot move it; the
+scene's own camera is only read, after keys, drivers and constraints have been
+evaluated. Works with Cycles and EEVEE.
 """
 
 import os

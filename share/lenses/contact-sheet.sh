@@ -1,8 +1,8 @@
 #!/bin/bash
-# contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]: looks of the lens on a test scene, each gathered from five
-# views (left) beside its truth by ray tracing (right), and a row of four of them beside it (OUT-row.png); on stdout, how
-# far the one is from the other. A FOLDER keeps what was traced, and what lies there is not traced again. Needs oiiotool,
-# and the font DejaVu Sans ($FONT names another one).
+# contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]: looks of the lens on a test scene, each gathered from
+# five views (left) beside its ray-traced reference (right), and a row of four of them in OUT-row.png; prints the error
+# of each gathered picture. FOLDER keeps the traced pictures, which are not traced again. Needs oiiotool, and the font
+# DejaVu Sans ($FONT names another one).
 set -euo pipefail
 usage="usage: contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]"
 bin=$(cd "${1:?$usage}" && pwd)
@@ -15,10 +15,11 @@ traced=$(realpath "${6:-$scratch}")
 mkdir -p "$traced"
 cd "$scratch"
 
-font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf # OpenImageIO finds it by its name up to 2.4 only
+font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf # OpenImageIO finds fonts by name up to 2.4 only
 [ -e "$font" ] || font=DejaVuSans
 
-# Half as large under its name, and lamps of a thousand times the white of the wall beside it: a power shows both.
+# Half the size with its name on top. Lamps are a thousand times as bright as the white wall beside them: a power curve
+# shows both.
 shown() {
     oiiotool "$1" --ch R,G,B --resize:filter=box 320x0 --clamp:min=0 --powc 0.3 --mulc 0.4 --clamp:max=1 \
         --text:x=5:y=13:size=12:color=0.8,0.8,0.8:font="${FONT:-$font}" "$3" -d uint8 -o "$2"

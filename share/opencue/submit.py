@@ -3,8 +3,8 @@
 
     submit.py --frames 1-24 --views /shots/010/views --output /shots/010/out -- --focus-distance 3
 
-The views are center.####.exr, view_0.####.exr, ...; what follows -- are options of dof-gather. Needs OpenCue's Python
-packages (pyoutline). A frame that runs again leaves complete files alone (-u). docs/farm.md says more.
+The views are center.####.exr, view_0.####.exr, ...; the words after -- are options of dof-gather. Needs OpenCue's
+Python packages (pyoutline). A frame that runs again keeps complete files (-u). docs/farm.md says more.
 """
 import argparse
 import pathlib
@@ -16,7 +16,7 @@ import outline
 import outline.cuerun
 from outline.modules.shell import Shell
 
-# Cuebot replaces these by the first and the last frame of what it starts.
+# Cuebot replaces these with the first and last frame of the chunk that it starts.
 FRAMES = "--frames=#FRAME_START#-#FRAME_END#"
 
 

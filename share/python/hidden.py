@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""What hidden surfaces are worth: the same scenes gathered from what a renderer's own deep file holds, from guesses at
-what it lacks, and from what ldi-warp makes of five views, each against the truth by ray tracing. See lab/results/hidden.md.
+"""Measures what hidden surfaces are worth: the same scenes gathered from a renderer's own deep file, with guesses at
+what it lacks, and from an LDI that ldi-warp makes of five views. Each is compared with a ray-traced reference. See
+lab/results/hidden.md.
 
     hidden.py fence grass mist path/to/views -o FOLDER
 
-A scene is one of dof-trace, which must be in PATH or in --bin, or a folder of ready-made views (center.exr, four or eight
-view_K.exr, reference.exr, camera.json as dof-trace writes it). What lies in FOLDER from an earlier run is not traced again.
-Needs numpy, and oiiotool for the pictures.
+A scene is the name of a dof-trace scene (dof-trace must be in PATH or in --bin), or a folder of ready-made views
+(center.exr, four or eight view_K.exr, reference.exr, camera.json as dof-trace writes it). Files in FOLDER from an
+earlier run are not traced again. Needs numpy, and oiiotool for the pictures.
 """
 import argparse
 import json
@@ -18,10 +19,10 @@ import subprocess
 import numpy
 import sparselens
 
-BACKDROP = 1e9     # depth of what stands for nothing, scene units
-DETAIL = (96, 54)  # pixels of the enlarged detail
+BACKDROP = 1e9     # depth of the backdrop that replaces nothing, scene units
+DETAIL = (96, 54)  # size of the enlarged detail, pixels
 ENLARGED = 4
-FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # Debian's; by its name OpenImageIO finds it up to 2.4 only
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # Debian's; OpenImageIO finds fonts by name up to 2.4 only
 
 
 def arguments():
@@ -36,10 +37,11 @@ def arguments():
     return parser.parse_args()
 
 
-# --- The samples of an LDI as one row each ---
+# --- The samples of an LDI, one row each ---
 
 class Samples:
-    """pixel: which pixel; z, z_back: depths; rgba: premultiplied, float32 (samples, 4). Sorted by pixel and depth."""
+    """pixel: index of the pixel; z, z_back: depths; rgba: premultiplied, float32 (samples, 4). Sorted by pixel and
+    depth."""
 
     def __init__(self, pixel, z, z_back, rgba):
         self.pixel, self.z, self.z_back, self.rgba = pixel, z, z_back, rgba
@@ -58,7 +60,7 @@ class Samples:
         return Samples(*(values[order] for values in joined))
 
     def ldi(self, like, more={}):
-        """As an Ldi with the windows and the camera of another, and further channels."""
+        """An Ldi with the windows and the camera of `like`, and further channels."""
         begin = numpy.searchsorted(self.pixel, numpy.arange(like.width * like.height + 1)).astype(numpy.uint64)
         channels = {name: numpy.ascontiguousarray(self.rgba[:, k]) for k, name in enumerate("RGBA")} | more
         volumes = {"z_back": self.z_back} if (self.z_back != self.z).any() else {}
@@ -70,8 +72,8 @@ class Samples:
 
 
 def before_nothing(samples, like):
-    """The same samples before a black backdrop that the gather takes for the background everywhere, so that it does not
-    continue the true background by itself, as it otherwise would. The channel "known.R" tells the backdrop apart."""
+    """Adds a black backdrop behind the samples. The gather takes it for the background everywhere, so it does not
+    continue the true background, as it would otherwise. The channel "known.R" marks everything but the backdrop."""
     last = numpy.flatnonzero(numpy.diff(samples.pixel, append=-1))
     pixel = samples.pixel[last[numpy.isfinite(samples.z[last])]]  # the sky needs no backdrop
     z = numpy.full(pixel.size, BACKDROP, numpy.float32)
@@ -81,17 +83,17 @@ def before_nothing(samples, like):
     return both.ldi(like, {"known.R": known.astype(numpy.float32)})
 
 
-# --- Guesses at what lies behind ---
+# --- Guesses at the hidden background ---
 
 def largest_circle(z, ldi):
-    """The largest radius of a circle of confusion at these depths in whole pixels: docs/design.md has the formula."""
+    """The largest radius of a circle of confusion at these depths, in whole pixels: docs/design.md has the formula."""
     camera, width = ldi.camera, ldi.display_window[2] - ldi.display_window[0] + 1
     scale = camera.lens_radius * camera.focal_length / camera.sensor_width * width
     return math.ceil(numpy.abs(scale / camera.focus_distance * (1 - camera.focus_distance / z)).max())
 
 
 def deepest(samples, shape):
-    """The last sample of each pixel: its depth, -inf where there is none, and its colour."""
+    """The depth and colour of the last sample of each pixel; the depth is -inf if there is none."""
     last = numpy.flatnonzero(numpy.diff(samples.pixel, append=-1))
     z, rgba = numpy.full(shape, -numpy.inf), numpy.zeros(shape + (4,))
     z.flat[samples.pixel[last]] = samples.z_back[last]
@@ -100,8 +102,8 @@ def deepest(samples, shape):
 
 
 def depth_step(z):
-    """How much a surface's own depth changes from pixel to pixel: along each axis the smaller of its two steps, so that a
-    silhouette does not count, and the larger of the two axes."""
+    """The slope of a surface's own depth, per pixel: along each axis the smaller of the two steps, so that a silhouette
+    does not count; then the larger of both axes."""
     steps = []
     for axis in (0, 1):
         step = numpy.abs(numpy.diff(numpy.where(numpy.isfinite(z), z, 1e10), axis=axis))
@@ -124,16 +126,16 @@ def shifted(values, dy, dx, empty):
 
 
 def guessed(ldi, blurred):
-    """A sample behind each pixel beside which something lies farther away: the nearest such pixel's last sample (as
-    DeepC's DeepCDefocus fills), or the mean of all such within reach, weighted by the squared distance. The reach is
-    the largest circle of confusion of what lies deepest in a pixel. Farther is what is more than 2 % deeper and deeper than four times what the pixel's
-    own surface descends on the way there."""
+    """Adds a sample behind each pixel that has something farther away beside it: the last sample of the nearest such
+    pixel (as DeepC's DeepCDefocus fills), or the mean of all such pixels within reach, weighted by the inverse squared
+    distance. The reach is the largest circle of confusion of the deepest samples. "Farther" means more than 2 % deeper,
+    and deeper than four times the depth change of the pixel's own surface over that distance."""
     shape = (ldi.height, ldi.width)
     z, rgba = deepest(Samples.of(ldi), shape)
     reach = largest_circle(z[numpy.isfinite(z)], ldi)
     step = depth_step(z)
     found = numpy.zeros(shape)      # the sum of weights
-    inverse = numpy.zeros(shape)    # of 1 / z
+    inverse = numpy.zeros(shape)    # weighted sum of 1 / z
     colour = numpy.zeros(shape + (4,))
     offsets = [(dy, dx) for dy in range(-reach, reach + 1) for dx in range(-reach, reach + 1)
                if 0 < dy * dy + dx * dx <= reach * reach]
@@ -162,19 +164,19 @@ def gathered(ldi, quality):
 
 
 def with_holes(ldi, quality):
-    """Without the gather's own fillers: what is unknown is black, and which share of each pixel is known."""
+    """Gathers without the gather's own fillers: unknown areas are black. Also returns the known share of each pixel."""
     picture = sparselens.gather(before_nothing(Samples.of(ldi), ldi), quality=quality, overscan="keep")
     return picture.pixels[..., :4], picture["known.R"][..., None]
 
 
 def without_holes(ldi, quality):
-    """The same, with what is unknown left out."""
+    """The same, divided by the known share."""
     pixels, known = with_holes(ldi, quality)
     return pixels / numpy.maximum(known, 1e-6)
 
 
 def pictures(views, visible, peeled, quality):
-    """(title, pixels) of everything that is compared."""
+    """Yields (title, pixels) of all compared pictures."""
     yield "visible surfaces alone, holes left dark", with_holes(visible, quality)[0]
     yield "... divided by what is known", without_holes(visible, quality)
     yield "... the nearest background repeated behind", without_holes(guessed(visible, False), quality)
@@ -186,7 +188,7 @@ def pictures(views, visible, peeled, quality):
 
 
 def framed(pixels, like, window):
-    """The pixels of a data window that lies over or beyond that of the reference."""
+    """Crops the pixels to the window of the reference."""
     left, top = like[0] - window[0], like[1] - window[1]
     return pixels[top:top + like[3] - like[1] + 1, left:left + like[2] - like[0] + 1]
 
@@ -196,7 +198,7 @@ def tone_mapped(pixels):
 
 
 def detail_of(error):
-    """Where the detail of largest error lies: left, top."""
+    """Left and top of the detail with the largest error."""
     width, height = DETAIL
     sums = numpy.pad(error.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     windows = sums[height:, width:] - sums[:-height, width:] - sums[height:, :-width] + sums[:-height, :-width]
@@ -205,7 +207,7 @@ def detail_of(error):
 
 
 def write_sheet(path, folder, panels):
-    """The titled panels, two beside each other."""
+    """Writes the titled panels in two columns."""
     words = []
     for k, (title, pixels) in enumerate(panels):
         name = folder / f"detail_{k}.exr"
@@ -221,7 +223,7 @@ def run(*command):
 
 
 def traced(scene, asked):
-    """The folder of a scene's views, deep files and truth, rendered unless they lie there."""
+    """The folder with a scene's views, deep files and reference; traces missing ones."""
     folder = asked.output / scene
     if not (folder / "reference.exr").exists():
         trace = asked.bin / "dof-trace" if asked.bin else "dof-trace"
@@ -231,7 +233,7 @@ def traced(scene, asked):
 
 
 def views_in(folder):
-    """The centre view and four from the rim, with the lens of camera.json, which files of other renderers do not say."""
+    """The centre view and four rim views, with the lens of camera.json, which files of other renderers do not state."""
     said = json.loads((folder / "camera.json").read_text())
     lens = {"focal_length": said["focal_mm"], "sensor_width": said["sensor_width_mm"],
             "lens_radius": said["lens_radius"], "focus_distance": said["focus_distance"]}

@@ -3,7 +3,7 @@
 
     pull_focus.py center.exr view_0.exr view_1.exr ... -o FOLDER --focus 2.2 3.4 5
 
-Each picture is written as EXR, and as PNG for the screen. Where the views do not describe their lens, the options do.
+Each picture is written as EXR, and as PNG for the screen. Options describe the lens if the views do not.
 """
 import argparse
 import pathlib

@@ -7,8 +7,8 @@
 #
 #   sbatch --array=1-24 --dependency=aftercorr:WARP_JOB gather.sh OUTPUT [OPTIONS OF DOF-GATHER]
 #
-# OUTPUT is the folder of ldi.####.exr and of picture.####.exr. With aftercorr, each frame waits for its own layered depth
-# image only. docs/farm.md says more.
+# OUTPUT is the folder of ldi.####.exr and picture.####.exr. With aftercorr, each frame waits only for its own layered
+# depth image. docs/farm.md says more.
 set -euo pipefail
 output=$1 frame=$SLURM_ARRAY_TASK_ID
 exec dof-gather "$output/ldi.####.exr" -o "$output/picture.####.exr" --frames="$frame" -u "${@:2}"

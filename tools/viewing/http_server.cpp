@@ -126,7 +126,7 @@ void HttpServer::run() {
 void HttpServer::wait() {
     const bool has_room =
         connections_.size() < limits_.connections || std::ranges::any_of(connections_, &Connection::can_go);
-    files_.clear(); // its capity is reserved, so this allocates no memory
+    files_.clear(); // its capacity is reserved, so this allocates no memory
     files_.push_back({wake_, POLLIN, 0});
     files_.push_back({has_room && Clock::now() >= accept_again_ ? listener_ : -1, POLLIN, 0});
     for (const Connection &connection : connections_) files_.push_back(connection.awaited());

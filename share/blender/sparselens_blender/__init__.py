@@ -1,5 +1,5 @@
-"""The add-on of Blender, and its extension, which blender_manifest.toml
-describes."""
+"""The Blender add-on and extension; blender_manifest.toml describes the
+extension."""
 
 bl_info = {
     "name": "sparselens",
@@ -16,7 +16,7 @@ import bpy  # noqa: E402
 
 from . import command, panel  # noqa: E402
 
-commands = []  # of Blender's own command line, since 4.2
+commands = []  # on Blender's own command line, since 4.2
 
 
 def register():

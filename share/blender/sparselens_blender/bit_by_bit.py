@@ -1,5 +1,5 @@
-"""Operators work at once where there is no window, and otherwise bit by bit on
-a timer, until all is done or Esc is pressed.
+"""Operators work at once if there is no window; otherwise bit by bit on a
+timer, until all is done or Esc is pressed.
 """
 
 from contextlib import ExitStack
@@ -11,20 +11,20 @@ from .for_a_while import changed
 from .taking import ERRORS
 
 
-at_work = []  # the operator that runs on the timer; no other may begin
+at_work = []  # the operator on the timer; no other may begin meanwhile
 
 
 class Stopped(Exception):
-    """Esc was pressed."""
+    """The user pressed Esc."""
 
 
 class BitByBit:
-    """An operator that has begin(context), tick(context), which says whether
-    all is done, and end(context), which is called however it ends."""
+    """An operator with begin(context); tick(context), which returns whether
+    all is done; and end(context), which is called however it ends."""
 
     timer = None
     stopped = False
-    holds = False  # keys and buttons, which could undo what is borrowed
+    holds = False  # blocks keys and buttons, which could undo changes
 
     @classmethod
     def poll(cls, context):
@@ -74,7 +74,7 @@ class BitByBit:
         return {"FINISHED"}
 
     def cancel(self, context):
-        """Blender calls this, too, where it ends the operator."""
+        """Blender also calls this when it ends the operator."""
         at_work.clear()
         self.end(context)
         if self.timer is not None:
@@ -84,7 +84,7 @@ class BitByBit:
 
 
 class Rendering:
-    """Steps that render, in Blender's own time, and between them tools."""
+    """Steps that render, in Blender's own time, with tools between them."""
 
     def __init__(self, scene, steps):
         self.scene, self.steps = scene.name, steps
@@ -92,7 +92,7 @@ class Rendering:
         self.around = ExitStack()
 
     def begin(self):
-        """Keeps hands and windows off the scene meanwhile."""
+        """Locks the scene and its windows against changes meanwhile."""
         self.around.enter_context(changed(
             bpy.context.preferences.view, render_display_type="NONE"))
         self.around.enter_context(changed(
@@ -105,7 +105,7 @@ class Rendering:
         self.stopped = True
 
     def tick(self):
-        """Begins the next step where none runs. Whether all are done."""
+        """Begins the next step if none runs. Returns whether all are done."""
         if bpy.app.is_job_running("RENDER"):
             return False
         if self.stopped:

@@ -1,4 +1,4 @@
-"""Runs the tools, one after the other, and blocks nothing meanwhile."""
+"""Runs the tools one after the other, without blocking Blender."""
 
 import re
 import subprocess
@@ -6,16 +6,16 @@ import tempfile
 
 
 class ToolError(RuntimeError):
-    """What a tool said when it failed."""
+    """A tool failed; the message is what it said."""
 
 
 def kind_of(warning):
-    """What is warned of, without files and numbers."""
+    """The kind of a warning: its text without files and numbers."""
     return re.sub(r"\S*\.exr|\d[\d.,]*", "", warning)
 
 
 class Once:
-    """Says a warning of each kind once, and at the end how many more there
+    """Says one warning of each kind, and at the end how many more there
     were."""
 
     def __init__(self, say):
@@ -35,8 +35,9 @@ class Once:
 
 
 class Chain:
-    """Commands, of which each begins when the one before has done its work.
-    Their outputs appear whole or not at all, so it can be stopped any time."""
+    """Commands that run one after the other, each after the success of the one
+    before. Their outputs appear whole or not at all, so the chain can be
+    stopped at any time."""
 
     def __init__(self, commands):
         self.left = list(commands)
@@ -44,7 +45,8 @@ class Chain:
         self.warnings = []
 
     def poll(self):
-        """Whether all is done. Raises ToolError where a tool has failed."""
+        """Returns whether all is done. Raises ToolError if a tool has
+        failed."""
         if self.process is None:
             return not self.begin()
         if self.process.poll() is None:
@@ -85,7 +87,7 @@ class Chain:
                 self.process.wait()
 
     def stop(self):
-        """Ends what runs, and begins no more."""
+        """Ends the running command, and begins no more."""
         self.left = []
         if self.process is None:
             return

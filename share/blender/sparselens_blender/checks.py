@@ -1,10 +1,11 @@
-"""What a scene asks for that its views cannot give."""
+"""Checks for features of a scene that its views cannot show."""
 
 from .shots import border_box
 
 
 def parts_of(collection):
-    """A view layer's collection and all within, but for what is excluded."""
+    """A view layer's collection and all collections within it, except excluded
+    ones."""
     if not collection.exclude:
         yield collection
         for child in collection.children:
@@ -17,7 +18,7 @@ def holds_out(material):
 
 
 def holdout_of(layer):
-    """What cuts holes into a view layer, in words; None where nothing does."""
+    """What cuts holes into a view layer, in words; None if nothing does."""
     for part in parts_of(layer.layer_collection):
         if part.holdout and part.collection.all_objects:
             return "collection '%s' is a holdout" % part.name
@@ -32,7 +33,7 @@ def holdout_of(layer):
 
 
 def denoises_in_vain(scene):
-    """Cycles ends with an error where it lacks the denoiser it is to use."""
+    """Whether Cycles lacks its denoiser. It would then end with an error."""
     if scene.render.engine != "CYCLES" or not scene.cycles.use_denoising:
         return False
     import _cycles
@@ -41,8 +42,8 @@ def denoises_in_vain(scene):
 
 
 def check_scene(scene):
-    """Raises ValueError, which says what to change, where the scene cannot be
-    rendered. Returns what is to be said of how it is."""
+    """Raises ValueError, which says what to change, if the scene cannot be
+    rendered. Returns warnings about it."""
     layers = [layer for layer in scene.view_layers if layer.use]
     if not layers:
         raise ValueError("no view layer of scene '%s' is used for rendering: "

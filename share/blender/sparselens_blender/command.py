@@ -1,6 +1,5 @@
-"""The command line: of the script, which renders views and with --picture
-makes pictures of them, and of Blender's --command sparselens, which makes
-pictures.
+"""The command line of the script, which renders views and with --picture makes
+pictures of them, and of Blender's --command sparselens, which makes pictures.
 """
 
 import argparse
@@ -132,7 +131,7 @@ def check_options(parser, options):
 
 
 def read_options(arguments, command=False):
-    """Of the script, or of Blender's --command sparselens."""
+    """The parser for the script, or for Blender's --command sparselens."""
     if command:
         parser = argparse.ArgumentParser(
             prog="sparselens", usage="blender -b SCENE.blend --command "
@@ -219,8 +218,8 @@ def main(options, say):
 
 
 def run(arguments, command=False):
-    """Returns the exit code. Blender goes on after an exception, and would
-    end with 0."""
+    """Returns the exit code. Catches all exceptions, because Blender would
+    continue after one and end with 0."""
     name = "sparselens" if command else "sparselens_views.py"
     try:
         options = read_options(arguments, command)

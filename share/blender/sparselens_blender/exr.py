@@ -32,8 +32,8 @@ def exr_matrix(matrix):
 
 
 def read_header(data):
-    """The attributes of an EXR of one part, {name: (type, bytes)}, and the
-    position behind the header."""
+    """The attributes of a single-part EXR, {name: (type, bytes)}, and the
+    position after the header."""
     magic, version = struct.unpack_from("<2i", data)
     if magic != 20000630 or version & 0x1a00:
         raise ValueError("not a flat scanline EXR of one part")
@@ -63,8 +63,8 @@ ROWS_A_CHUNK = {0: 1, 1: 1, 2: 1, 3: 16, 4: 32, 5: 16, 6: 32, 7: 32, 8: 32,
 
 
 def channel_list(header):
-    """Names of the channels, and the bytes behind each name: 4 of type, 4
-    flags, 8 sampling."""
+    """Names of the channels, and the bytes after each name: 4 of type, 4 of
+    flags, 8 of sampling."""
     packed, at, found = header["channels"][1], 0, []
     while packed[at] != 0:
         name_end = packed.index(b"\0", at)
@@ -78,9 +78,9 @@ PLAIN_NAMES = ["A", "B", "G", "R", "Z"]
 
 
 def name_plainly(header):
-    """Where an EXR holds no more than colour and depth, their channels lose
-    the names of the view layer and its passes: A, B, G, R, Z, which are in
-    the same order."""
+    """If an EXR holds only colour and depth, removes the names of the view
+    layer and its passes from the channels. That leaves A, B, G, R, Z, which
+    are in the same order."""
     channels = channel_list(header)
     if [name.rsplit(".", 1)[-1] for name, _ in channels] != PLAIN_NAMES:
         return
@@ -91,9 +91,9 @@ def name_plainly(header):
 
 
 def with_attributes(data, attributes, plain=False):
-    """The bytes of an EXR with these attributes added or replaced, and with
-    `plain` names of its channels. The chunks are kept; their table of offsets
-    moves, and so do their rows where the data window does."""
+    """The bytes of an EXR with these attributes added or replaced, and if
+    `plain`, with plain names for its channels. The chunks are kept; their
+    table of offsets moves, and their rows move with the data window."""
     header, end = read_header(data)
     if plain:
         name_plainly(header)
@@ -116,7 +116,7 @@ def with_attributes(data, attributes, plain=False):
 
 
 def depth_rows(data):
-    """The rows of the depth of an EXR without compression, from the top."""
+    """The depth rows of an uncompressed EXR, from the top."""
     header, end = read_header(data)
     left, top, right, bottom = struct.unpack("<4i", header["dataWindow"][1])
     before = 0

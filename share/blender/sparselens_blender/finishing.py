@@ -1,4 +1,5 @@
-"""Finishes the picture of a scene's frame by two renders through the lens."""
+"""Finishes the picture of a scene's frame with two renders through the
+lens."""
 
 from dataclasses import replace
 
@@ -32,7 +33,7 @@ class Finishing:
                 scene, views, eye, settings.views, shot)))
 
     def steps(self):
-        """Yields what is to be rendered, in words, and chains of tools."""
+        """Yields the renders, in words, and the chains of tools."""
         for eye, shot, files in self.eyes:
             yield from halves_steps(self.scene, files.path, eye, self.rays,
                                     view_steps)

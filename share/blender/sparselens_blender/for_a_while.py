@@ -1,4 +1,4 @@
-"""What a scene is while its views are rendered. Afterwards all is as it was."""
+"""Changes a scene while its views are rendered, and restores it afterwards."""
 
 from contextlib import ExitStack, contextmanager
 
@@ -7,7 +7,7 @@ import bpy
 
 @contextmanager
 def changed(thing, **values):
-    """Properties with other values for a while."""
+    """Sets properties to other values for a while."""
     before = {name: getattr(thing, name) for name in values}
     try:
         for name, value in values.items():
@@ -20,9 +20,9 @@ def changed(thing, **values):
 
 @contextmanager
 def still_camera(scene):
-    """A camera without animation and without depth of field takes the place
-    of the scene's for a while. Markers let go of their cameras meanwhile, or
-    the render would switch to one of them."""
+    """Replaces the scene's camera for a while by one without animation and
+    depth of field. Markers drop their cameras meanwhile; otherwise the render
+    would switch to one of them."""
     data = bpy.data.cameras.new("sparselens view")
     made = bpy.data.objects.new("sparselens view", data)
     scene.collection.objects.link(made)
@@ -40,8 +40,8 @@ def still_camera(scene):
 def file_settings(settings, multilayer, codec):
     """Values for `settings`, the image_settings of a render, that give an EXR
     with depth. Since Blender 4.0 only multilayer files have depth; Blender 5
-    wants to know of several layers first, and parts of a file are its way of
-    storing them unless told to interleave."""
+    must first be told of several layers, and it stores them as parts of a file
+    unless told to interleave."""
     known = settings.bl_rna.properties
     single = not multilayer and "use_zbuffer" in known
     values = {
@@ -55,7 +55,7 @@ def file_settings(settings, multilayer, codec):
 
 @contextmanager
 def colour_and_depth(layer):
-    """Switches off all other passes of a view layer for a while, but for its
+    """Switches off all other passes of a view layer for a while, except its
     AOVs and light groups, which have no switch."""
     with ExitStack() as stack:
         for owner in (layer, layer.cycles, layer.eevee):
@@ -70,8 +70,8 @@ def colour_and_depth(layer):
 
 @contextmanager
 def render_settings(scene, size, multilayer=False, codec="ZIP"):
-    """EXR with depth, of a picture of that size, and of nothing else than the
-    views; afterwards all is as it was."""
+    """Sets the output for a while: EXR with depth, this size, only the
+    views."""
     render = scene.render
     with ExitStack() as stack:
         stack.enter_context(changed(
@@ -91,7 +91,8 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
 
 @contextmanager
 def finer(scene, supersample):
-    """As many fewer samples a pixel, for a while, as pixels are smaller."""
+    """Divides the samples per pixel for a while by the number of
+    sub-pixels."""
     subpixels = supersample * supersample
     cycles = scene.render.engine == "CYCLES"
     samples = (scene.cycles.samples if cycles
@@ -108,7 +109,8 @@ def finer(scene, supersample):
 
 @contextmanager
 def only_layer(scene, name):
-    """Renders one view layer, for a while; with no name all that are used."""
+    """Renders only one view layer for a while; without a name, all used
+    layers."""
     with ExitStack() as stack:
         for layer in scene.view_layers if name else ():
             stack.enter_context(changed(layer, use=layer.name == name))

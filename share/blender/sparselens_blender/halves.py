@@ -1,4 +1,4 @@
-"""Two renders through the camera's own lens that share no noise, for
+"""Two renders through the camera's own lens with independent noise, for
 dof-finish."""
 
 from contextlib import contextmanager
@@ -10,8 +10,7 @@ from .shots import shot_of
 
 @contextmanager
 def open_lens(camera, shot):
-    """The made camera takes pictures through the lens of the shot, for a
-    while."""
+    """Gives the made camera the lens of the shot for a while."""
     with changed(camera.data.dof, use_dof=True,
                  focus_distance=shot.focus_distance,
                  aperture_fstop=shot.fstop, aperture_blades=shot.blades,
@@ -20,10 +19,11 @@ def open_lens(camera, shot):
 
 
 def halves_steps(scene, path_of, eye, manner, view_steps):
-    """Renders rays_1 and rays_2, with manner.finish samples a pixel in all.
-    They have the size of the picture, without sub-pixels and overscan.
-    Neither is denoised, which would leave other noise. With manner.keep a
-    render of an earlier run stays if it has this camera, lens and samples."""
+    """Renders rays_1 and rays_2, with manner.finish samples per pixel in
+    total. They have the size of the picture, without sub-pixels and overscan.
+    Neither is denoised, because that would leave different noise. With
+    manner.keep a render of an earlier run stays if it has this camera, lens
+    and samples."""
     shot, cycles, samples = shot_of(scene, eye), scene.cycles, manner.finish
     with render_settings(scene, shot.size, manner.multilayer), \
             still_camera(scene), only_layer(scene, manner.layer):
@@ -43,7 +43,7 @@ def halves_steps(scene, path_of, eye, manner, view_steps):
 
 
 def curves_of(action):
-    """The curves of an action, in layers since Blender 5."""
+    """The curves of an action; in Blender 5 they are in layers."""
     if action is None:
         return []
     if hasattr(action, "fcurves"):
@@ -53,7 +53,7 @@ def curves_of(action):
 
 
 def check_halves(scene):
-    """Raises ValueError where two renders would have the same noise."""
+    """Raises ValueError if both renders would have the same noise."""
     if scene.render.engine != "CYCLES":
         raise ValueError("finishing: only Cycles renders depth of field by "
                          "rays: choose it as the render engine")
@@ -67,8 +67,8 @@ def check_halves(scene):
 
 
 def check_looks(words):
-    """Raises ValueError where the gathered picture would have a look that
-    the renders cannot have, so that they would undo it."""
+    """Raises ValueError if the gathered picture would have a look that the
+    renders cannot have and would undo."""
     looks = [word for word in words
              if word.startswith("--") and word.split("=")[0] != "--quality"]
     if looks:

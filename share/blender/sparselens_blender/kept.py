@@ -1,5 +1,5 @@
-"""Which views of an earlier run can stay: those of this camera, rendered as
-they would be now. What else of the scene has changed no file says.
+"""Decides which views of an earlier run stay: those of this camera, rendered
+as they would be now. Other changes of the scene leave no trace in a file.
 """
 
 import struct
@@ -8,13 +8,13 @@ from dataclasses import replace
 from .exr import exr_box, exr_int, exr_text, read_header
 from .shots import camera_attributes, view_placement
 
-# The lens may be set anew afterwards, but not wider than the views are.
+# The lens may change afterwards, but it must not become wider than the views.
 OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
                "aperture_ratio"}
 
 
 def manner_attributes(scene, layer, multilayer):
-    """The frame, and how its views are rendered, in words."""
+    """The frame, and in words how its views are rendered."""
     cycles = scene.render.engine == "CYCLES"
     samples = (scene.cycles.samples if cycles
                else scene.eevee.taa_render_samples)
@@ -28,8 +28,8 @@ def manner_attributes(scene, layer, multilayer):
 
 
 def windows(size, overscan):
-    """The display window of a picture, and a data window that is larger on
-    each side."""
+    """The display window of a picture, and a data window that is larger by
+    `overscan` on each side."""
     width, height = size
     return {"displayWindow": exr_box(0, 0, width, height),
             "dataWindow": exr_box(-overscan, -overscan, width + 2 * overscan,
@@ -37,7 +37,7 @@ def windows(size, overscan):
 
 
 def header_of(path):
-    """The attributes of an EXR file; of one that cannot be read, None."""
+    """The attributes of an EXR file; None if it cannot be read."""
     try:
         with open(path, "rb") as file:
             for most in 1 << 16, -1:  # few headers are longer
@@ -60,7 +60,7 @@ def floats(header, name):
 
 
 def overscan_of_file(path):
-    """Pixels that a view was rendered with beyond each side, in its own."""
+    """Overscan of a view on each side, in pixels of the view."""
     header = header_of(path)
     if header is None:
         return None
@@ -68,8 +68,8 @@ def overscan_of_file(path):
 
 
 def is_of_camera(header, shot, u=(0, 0), wider=False):
-    """Whether a view was seen from point u of this camera's lens, or of one
-    that was as wide; with `wider` this lens may be the wider one."""
+    """Whether a view was seen from point u of this camera's lens, or of one at
+    least as wide; with `wider` this lens may also be the wider one."""
     try:
         fstop, = floats(header, "aperture")
     except (KeyError, ValueError, struct.error):
@@ -83,16 +83,16 @@ def is_of_camera(header, shot, u=(0, 0), wider=False):
 
 
 def is_kept(path, shot, u, others):
-    """Whether the view in this file need not be rendered again: it is of this
-    camera, and has these other attributes."""
+    """Whether the view in this file can stay: it is of this camera, and has
+    these other attributes."""
     header = header_of(path)
     return header is not None and is_of_camera(header, shot, u) and all(
         header.get(name) == value for name, value in others.items())
 
 
 def is_same_render(path, shot, others):
-    """Whether a render through the lens need not be made again: it is of this
-    camera, with the lens exactly as it is, and has these other attributes."""
+    """Whether a render through the lens can stay: it is of this camera, with
+    exactly this lens, and has these other attributes."""
     header = header_of(path)
     wanted = camera_attributes(shot, shot.placement) | others
     return header is not None and all(

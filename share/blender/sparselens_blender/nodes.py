@@ -11,8 +11,9 @@ NAME = "Sparse lens"
 
 
 def pictures_of(scene, eye):
-    """The picture of the current frame, linear, and whether its name has the
-    frame's number; that of Render Animation, else that of Take Picture."""
+    """The linear picture of the current frame, and whether its name has the
+    frame's number. A picture of Render Animation comes before one of Take
+    Picture."""
     folder = folder_of(scene.sparselens.folder)
     numbered = os.path.join(folder, "picture%s.%04d.exr" % (
         eye.file_suffix, scene.frame_current))
@@ -43,7 +44,7 @@ def add_output(group, name):
 
 
 def group_of(scene):
-    """Makes the group anew where it is; nodes that use it stay linked."""
+    """Remakes the group in place; nodes that use it stay linked."""
     group = bpy.data.node_groups.get(NAME)
     if group is None:
         group = bpy.data.node_groups.new(NAME, "CompositorNodeTree")
@@ -59,7 +60,7 @@ def group_of(scene):
         node = group.nodes.new("CompositorNodeImage")
         node.location.y = -300 * number
         node.image = image_of(path, several)
-        if several:  # the file's number is that of the frame
+        if several:  # the file's number is the frame's
             node.frame_start, node.frame_duration = 1, scene.frame_end
             node.use_auto_refresh = True
         group.links.new(node.outputs["Image"], out.inputs[name])

@@ -1,4 +1,4 @@
-"""What the buttons do."""
+"""The operators behind the buttons."""
 
 import os
 from types import SimpleNamespace
@@ -29,8 +29,8 @@ def manner_of(settings):
 
 
 class Renders(BitByBit):
-    """An operator of steps: prepare(context) sets self.steps; of views also
-    self.count, and self.most, their number."""
+    """An operator of steps: prepare(context) sets self.steps; for views also
+    self.count, and self.most, the total number of views."""
 
     holds = True
 
@@ -64,7 +64,7 @@ class Renders(BitByBit):
                                      self.most)
 
     def may_stop(self):
-        """A render that runs stops by itself, at the same key."""
+        """A running render handles Esc by itself."""
         return not bpy.app.is_job_running("RENDER")
 
     def end(self, context):
@@ -72,7 +72,7 @@ class Renders(BitByBit):
 
 
 def say_warnings(operator, taken):
-    """Of what has been taken, and which images show it."""
+    """Reports the warnings of the pictures, and which images show them."""
     say = Once(lambda text: operator.report({"WARNING"}, text))
     for text in taken.warnings:
         say(text)

@@ -62,15 +62,15 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
 
 
 def gigabytes(scene):
-    """Of the views and LDIs of all frames, without compression: 12 bytes a
-    pixel of a view, and LDIs as large as three of them."""
+    """Gigabytes of all frames' views and LDIs without compression: 12 bytes
+    per pixel of a view, and an LDI is as large as three views."""
     settings, size = scene.sparselens, picture_size(scene.render)
     pixels = size[0] * size[1] * settings.supersample ** 2
     return 12e-9 * pixels * (settings.views + 4) * len(frames_of(scene))
 
 
 def say(layout, text, context):
-    """In as many lines as the panel is wide; about 7 pixels a letter."""
+    """Wraps the text to the width of the panel; about 7 pixels per letter."""
     region = getattr(context, "region", None)
     letters = max(20, region.width // 7 - 6) if region else 60
     for number, line in enumerate(textwrap.wrap(text, letters)):

@@ -1,4 +1,4 @@
-"""The pictures of the views: their files, and the commands that make them."""
+"""Files of the pictures of the views, and the commands that make them."""
 
 import math
 import os
@@ -14,9 +14,9 @@ class Files:
     """The files of an eye at a frame."""
 
     folder: str
-    suffix: str  # of the eye
-    ending: str  # .exr, or with the frame's number before it
-    rim: int     # views from the rim of the lens
+    suffix: str  # for the eye
+    ending: str  # .exr, or the frame's number and .exr
+    rim: int     # number of views from the rim of the lens
 
     def path(self, name):
         return os.path.join(self.folder, name + self.suffix + self.ending)
@@ -33,9 +33,9 @@ def frame_of(header):
 
 
 def files_to_take(scene, folder, eye, rim, shot):
-    """The files of the current frame's views: those with its number, or else
-    those without any. Raises ValueError where they are not there, or not of
-    this frame and camera."""
+    """The view files of the current frame: those with its number, else those
+    without a number. Raises ValueError if they are missing, or belong to
+    another frame or camera."""
     ask = ": press Render Views"
     found = None
     for ending in ".%04d.exr" % scene.frame_current, ".exr":
@@ -59,8 +59,8 @@ def files_to_take(scene, folder, eye, rim, shot):
 
 
 def check_camera(center, shot, ask):
-    """The lens may be set anew, but the camera has to be where it was. A lens
-    that is opened wider has other views, and the tools warn of that."""
+    """Raises ValueError if the camera has moved since. The lens may differ; if
+    it is opened wider than in the views, the tools warn."""
     header = header_of(center)
     if not is_of_camera(header, shot, wider=True):
         raise ValueError("camera '%s' has been moved or changed, or the "
@@ -69,13 +69,13 @@ def check_camera(center, shot, ask):
 
 
 def number(value):
-    """All digits, so that a tool reads what Blender has."""
+    """Prints all digits, so that a tool reads the same value as Blender."""
     return repr(float(value))
 
 
 def lens_options(shot):
-    """The camera's lens, as dof-gather is told of it. Cycles takes less than
-    three blades for none."""
+    """The camera's lens as options of dof-gather. Cycles treats less than
+    three blades as none."""
     return ["--focus-distance", number(shot.focus_distance),
             "--fstop", number(shot.fstop),
             "--blades", str(shot.blades if shot.blades >= 3 else 0),
@@ -92,8 +92,9 @@ def is_newest(path, others):
 
 
 def warp_commands(folder, files, layer=None):
-    """Make the LDI, unless it is newer than the views; of files with several
-    layers it may be that of another."""
+    """Commands that make the LDI, none if it is newer than the views. From
+    files with several layers it is always made, because the existing one may
+    be of another layer."""
     ldi = files.path("ldi")
     if not layer and is_newest(ldi, files.views):
         return []
@@ -102,14 +103,14 @@ def warp_commands(folder, files, layer=None):
 
 
 def gather_command(folder, ldi, out, options):
-    """Makes a picture of the scene's size, as Blender knows no pixels beyond
+    """A picture of the scene's size, because Blender has no pixels beyond
     it."""
     return [tools.tool(folder, "dof-gather"), ldi, "-o", out,
             "--overscan", "crop", *options]
 
 
 def finish_command(folder, files, out):
-    """Makes the gathered picture exact by the two renders."""
+    """Makes dof-finish improve the gathered picture with the two renders."""
     return [tools.tool(folder, "dof-finish"), files.path("gathered"),
             files.path("rays_1"), files.path("rays_2"), "-o", out]
 

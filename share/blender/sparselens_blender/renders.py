@@ -1,9 +1,8 @@
 """Renders the views of frames into a folder.
 
-What renders comes step by step: a generator puts the scene as a view needs
-it, and yields; whoever asks for the next step has it rendered meanwhile, at
-once or in Blender's own time. When the generator ends or is closed, the scene
-is as it was.
+Rendering is a generator: it prepares the scene for a view, and yields; the
+caller then renders, at once or in Blender's own time, and asks for the next
+step. When the generator ends or is closed, the scene is restored.
 """
 
 import math
@@ -26,7 +25,7 @@ from .shots import camera_attributes, shot_of, view_placement
 
 AUTO = "auto"  # overscan: as much as the blur needs
 LARGEST_PROBE = 512  # pixels
-LARGEST_OVERSCAN = 1024  # pixels; as far as ldi-warp looks
+LARGEST_OVERSCAN = 1024  # pixels; ldi-warp looks no farther
 
 
 @dataclass
@@ -35,19 +34,19 @@ class Manner:
 
     overscan: object = AUTO  # pixels of the scene's picture, or AUTO
     multilayer: bool = False
-    layer: str = None        # the only view layer to render
-    supersample: int = 1     # pixels, across and down, for one of the picture
-    finish: int = 0          # samples of two renders through the lens, both
-    keep: bool = False       # views of an earlier run that are the same
+    layer: str = None        # the only view layer to render; None: all
+    supersample: int = 1     # pixels per picture pixel, across and down
+    finish: int = 0          # samples per pixel, both lens renders together
+    keep: bool = False       # keep unchanged views of an earlier run
 
 
 @dataclass
 class Count:
-    """What became of the views."""
+    """The numbers of rendered and kept views."""
 
     rendered: int = 0
     kept: int = 0
-    oldest: float = math.inf  # time of the oldest view that is kept
+    oldest: float = math.inf  # time of the oldest kept view
 
     def keep(self, paths):
         self.kept += len(paths)
@@ -59,7 +58,8 @@ def warn(text):
 
 
 def folder_of(path):
-    """A folder's full name; // is that of the .blend file."""
+    """The full name of a folder; // stands for the folder of the .blend
+    file."""
     if path.startswith("//") and not bpy.data.filepath:
         raise ValueError("'%s' is a folder beside the .blend file, which is "
                          "not saved yet: save it, or choose another folder"
@@ -72,8 +72,8 @@ def used_layers(scene):
 
 
 def layer_to_render(scene, name, multilayer, say=warn):
-    """The name of the only view layer to render, or None for all. Says what
-    of several will not be written."""
+    """The name of the only view layer to render, or None for all. Reports
+    layers that will not be written."""
     names = [layer.name for layer in scene.view_layers]
     if name and name not in names:
         raise ValueError("--layer: the scene has no view layer '%s'; it has: "
@@ -87,8 +87,8 @@ def layer_to_render(scene, name, multilayer, say=warn):
 
 
 def aim(camera, shot, placement, overscan):
-    """Puts the made camera where a view is seen from. It sees `overscan`
-    pixels more on each side; the sensor grows by as much."""
+    """Puts the made camera at the position of a view. It sees `overscan`
+    pixels more on each side, and its sensor grows accordingly."""
     camera.matrix_world = placement
     data, grown = camera.data, 1 + 2 * overscan / shot.size[0]
     data.lens, data.sensor_fit = shot.focal_length, "HORIZONTAL"
@@ -99,7 +99,8 @@ def aim(camera, shot, placement, overscan):
 
 def set_border(render, box, overscan):
     """Renders only a box of pixels, x0, y0, x1, y1, y down, corners included.
-    A quarter of a pixel keeps the edges from being rounded down."""
+    A margin of a quarter of a pixel keeps the edges from being rounded
+    down."""
     render.use_border = box is not None
     if box is None:
         return
@@ -112,9 +113,9 @@ def set_border(render, box, overscan):
 
 
 def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
-    """Renders what is seen from lens point u. The file appears complete or
-    not at all; its channels have `plain` names where it holds colour and
-    depth alone."""
+    """Renders the view from lens point u. The file appears complete or not at
+    all; with `plain`, its channels get plain names if it holds only colour and
+    depth."""
     placement = view_placement(shot, u)
     aim(scene.camera, shot, placement, overscan)
     set_border(scene.render, box, overscan)
@@ -135,9 +136,9 @@ def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
 
 
 def overscan_steps(scene, folder, shot):
-    """The pixels of overscan that the blur of a frame needs: its largest
-    circle of confusion at the border, in any layer. Read from the depth of
-    small pictures of one sample a pixel."""
+    """The pixels of overscan that the blur of a frame needs: the largest
+    circle of confusion at its border, in any layer. It is read from the depth
+    of small pictures with one sample per pixel."""
     shrink = min(1, LARGEST_PROBE / max(shot.size))
     size = [max(1, round(side * shrink)) for side in shot.size]
     path = os.path.join(folder, ".overscan.partial.exr")
@@ -212,15 +213,15 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
 
 
 def frame_ending(frame, several):
-    """How the names of a frame's files end."""
+    """The ending of the names of a frame's files."""
     return ".%04d.exr" % frame if several else ".exr"
 
 
 def views_steps(scene, frames, folder, views_at, eyes, manner, count,
                 several=False, say=warn):
-    """The views of a list of frames; views_at(frame) are those of one. With
-    `several` the names carry the frame's number. Warnings go to `say`, once
-    for all frames. Yields what is to be rendered, in words."""
+    """The views of a list of frames; views_at(frame) returns those of one
+    frame. With `several` the names carry the frame's number. Warnings go to
+    `say`, once for all frames. Yields the renders, in words."""
     for text in check_scene(scene):
         say(text)
     if manner.finish:
@@ -242,7 +243,7 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
 
 
 def render_now(scene, steps):
-    """Renders, and waits for tools, where nobody waits for a window."""
+    """Renders, and waits for tools, without a window."""
     for step in steps:
         if isinstance(step, Chain):
             step.wait()

@@ -22,7 +22,7 @@ FORMATS = {".exr": "OPEN_EXR", ".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG",
 
 def format_of(name, scene):
     """The ending of a picture's name, and Blender's word for such a file. A
-    name without one gets that of the scene's output settings."""
+    name without an ending gets the one of the scene's output settings."""
     ending = os.path.splitext(name)[1].lower()
     if ending in FORMATS:
         return "", FORMATS[ending]
@@ -69,8 +69,7 @@ class Pictures:
                                  % ", ".join(used))
 
     def steps(self, frames):
-        """Yields what is to be rendered, in words, and chains of tools that
-        are to run."""
+        """Yields the renders, in words, and chains of tools to run."""
         several = "#" in os.path.basename(self.name)
         if len(frames) > 1 and not several:
             raise ValueError("-o %s: %d frames need a # in the name, for the "
@@ -100,7 +99,7 @@ class Pictures:
         self.warn_of_kept()
 
     def take(self, frame, eye, files):
-        """The picture of the views, and of the rays where there are some."""
+        """Makes the picture of the views, and of the rays if there are any."""
         shot = shot_of(self.scene, eye, self.manner.supersample)
         stem, ending = os.path.splitext(numbered(self.name, frame))
         out = stem + eye.file_suffix + ending
@@ -123,7 +122,8 @@ class Pictures:
         print("sparselens: frame %d: %s" % (frame, out), flush=True)
 
     def warn_of_kept(self):
-        """The scene may be another than that of the views."""
+        """Warns if the scene's file is newer than kept views: the scene may
+        differ from them."""
         blend = bpy.data.filepath
         if self.count.kept and os.path.exists(blend) and \
                 os.path.getmtime(blend) > self.count.oldest:
@@ -136,7 +136,7 @@ class Pictures:
             counted(self.count.rendered, "view"), self.count.kept, self.views)
 
     def save(self, path, out):
-        """As the scene's output settings have it, through its view
+        """Writes the picture with the scene's output settings and view
         transform."""
         stem, ending = os.path.splitext(out)
         partial = stem + ".partial" + ending

@@ -1,5 +1,5 @@
-"""The camera at a frame, as the scene has it after animation, drivers and
-constraints, and the EXR attributes that describe it.
+"""The camera at a frame, after animation, drivers and constraints, and the EXR
+attributes that describe it.
 """
 
 import math
@@ -13,8 +13,8 @@ from .exr import exr_float, exr_int, exr_matrix, exr_point, exr_text
 
 @dataclass
 class Shot:
-    """What the scene's camera is at one frame, for one eye, after animation,
-    drivers and constraints. Blender's units, which Cycles takes for metres."""
+    """The scene's camera at one frame, for one eye, after animation, drivers
+    and constraints. In Blender's units, which Cycles treats as metres."""
 
     camera: str            # its name
     placement: Matrix      # from camera to world, without a scale
@@ -31,14 +31,15 @@ class Shot:
     ratio: float           # 1: round; 2: twice as high as wide
     supersample: int       # pixels of `size`, across and down, in one of the
                            # scene's picture
-    pixel_filter: str      # of the picture, as ldi.pixelFilter has it
+    pixel_filter: str      # of the picture, as in ldi.pixelFilter
 
     @property
     def lens_radius(self):
         return self.focal_length / 1000 / (2 * self.fstop)
 
     def blur_radius(self, depth):
-        """Of a point's circle of confusion, in pixels across."""
+        """The radius of the circle of confusion at this depth, in pixels,
+        horizontally."""
         focal_length = self.focal_length * self.size[0] / self.sensor_width
         return (self.lens_radius * focal_length / self.focus_distance
                 * abs(depth - self.focus_distance) / depth)
@@ -55,7 +56,7 @@ class Eye:
 
 
 def eyes_of(scene):
-    """The eyes that the scene asks for, as its Stereoscopy panel has it."""
+    """The eyes that the scene's Stereoscopy panel sets."""
     render = scene.render
     if not render.use_multiview:
         return [Eye()]
@@ -68,8 +69,8 @@ def eyes_of(scene):
 
 
 def camera_of(scene, eye):
-    """The camera object of an eye. The cameras of a multi-view scene differ
-    in the end of their names."""
+    """The camera object of an eye. The cameras of a multi-view scene have
+    different name endings."""
     camera = scene.camera
     if camera is None:
         raise ValueError("scene '%s' has no camera: set one in the scene's "
@@ -91,7 +92,8 @@ def without_scale(matrix):
 
 
 def stereo_offset(stereo, side):
-    """Where an eye of a stereo pair stands in the space of its camera."""
+    """The position and rotation of an eye of a stereo pair in its camera's
+    space."""
     centred = stereo.pivot == "CENTER"
     if not centred and side == (-1 if stereo.pivot == "LEFT" else 1):
         return Matrix()
@@ -106,8 +108,9 @@ def stereo_offset(stereo, side):
 
 
 def stereo_shift(data, side):
-    """What an eye of an off-axis stereo pair adds to the lens shift, in
-    Blender's unit of that, which is a sensor width here whatever the fit."""
+    """The lens shift of an eye of an off-axis stereo pair, in addition to the
+    camera's. In Blender's unit of lens shift, which is a sensor width here for
+    every sensor fit."""
     stereo = data.stereo
     if side == 0 or stereo.convergence_mode != "OFFAXIS":
         return 0
@@ -116,8 +119,7 @@ def stereo_shift(data, side):
 
 
 def focus_distance_of(data, placement, depsgraph):
-    """Depth of the plane of focus; that of the focus object, or of its bone,
-    where there is one."""
+    """Depth of the plane of focus; of the focus object or its bone, if set."""
     target = data.dof.focus_object
     if target is None:
         return data.dof.focus_distance
@@ -136,7 +138,7 @@ def picture_size(render):
 
 def border_box(render):
     """The render region in pixels: x0, y0, x1, y1, y down, corners included,
-    as Blender rounds it."""
+    rounded as Blender does."""
     width, height = picture_size(render)
     left, right = [int(x * width) for x in (render.border_min_x,
                                             render.border_max_x)]
@@ -146,8 +148,8 @@ def border_box(render):
 
 
 def pixel_filter_of(scene):
-    """The filter of the scene's engine and its width, as ldi.pixelFilter has
-    them. EEVEE's is Cycles' default one."""
+    """The engine's pixel filter and its width, as in ldi.pixelFilter. EEVEE's
+    is the default filter of Cycles."""
     if scene.render.engine != "CYCLES":
         return "blackman-harris:%g" % scene.render.filter_size
     name = {"BOX": "box", "GAUSSIAN": "gaussian",
@@ -207,7 +209,8 @@ def shot_of(scene, eye, supersample=1):
 
 
 def view_placement(shot, u):
-    """Where lens point u (x right, y up; the lens has the radius 1) stands."""
+    """The camera-to-world matrix for lens point u (x right, y up; the rim is
+    at radius 1)."""
     radius = shot.lens_radius
     return shot.placement @ Matrix.Translation(
         (radius * u[0], radius * u[1], 0))
@@ -215,7 +218,7 @@ def view_placement(shot, u):
 
 def camera_attributes(shot, placement):
     """The EXR attributes of a view. Camera space in EXR: x right, y up, z
-    forward, where Blender's z points backward."""
+    forward. Blender's z points backward."""
     field = shot.sensor_width / shot.focal_length
     to_camera = Matrix.Diagonal((1, 1, -1, 1)) @ placement.inverted()
     subpixels = {} if shot.supersample == 1 else {

@@ -14,7 +14,7 @@ ERRORS = ValueError, OSError, RuntimeError, ToolError
 
 
 def chosen_folder():
-    """The folder of the tools that the preferences name."""
+    """The tools' folder from the preferences."""
     addon = bpy.context.preferences.addons.get(__package__)
     return addon.preferences.folder if addon and addon.preferences else ""
 
@@ -27,7 +27,7 @@ def looks_of(settings):
 
 
 def lens_state(scene):
-    """What a picture depends on that may be changed after the render."""
+    """The settings that can change the picture after the render."""
     settings = scene.sparselens
     return (scene.name, scene.frame_current, settings.looks, *[
         word for eye in eyes_of(scene)
@@ -35,7 +35,7 @@ def lens_state(scene):
 
 
 def image_of(key, path):
-    """Blender's image of this key, which now shows the file."""
+    """Blender's image with this key, reloaded from the file."""
     image = next((image for image in bpy.data.images
                   if image.get("sparselens") == key), None)
     if image is None:
@@ -55,7 +55,7 @@ def editors():
 
 
 def show(image):
-    """In the image editors that have nothing else to show."""
+    """Shows the image in the image editors that show nothing else."""
     for area in editors():
         space = area.spaces.active
         if space.image is None or space.image.type == "RENDER_RESULT":
@@ -65,7 +65,8 @@ def show(image):
 
 class Taking:
     """The pictures of the current frame, one for each eye: warps if the views
-    are newer than the LDI, then gathers; with `draft` a draft first."""
+    are newer than the LDI, then gathers; with `draft`, gathers a draft
+    first."""
 
     def __init__(self, scene, draft):
         settings = scene.sparselens
@@ -99,11 +100,11 @@ class Taking:
 
     @property
     def interruptible(self):
-        """Whether the last stage runs, so that what is newer may begin."""
+        """Whether the last stage runs, so that a newer picture may begin."""
         return not self.stages
 
     def tick(self):
-        """Whether all is done. Raises what went wrong."""
+        """Returns whether all is done. Raises the error if a stage failed."""
         if self.chain is not None:
             if not self.chain.poll():
                 return False
@@ -136,12 +137,13 @@ class Taking:
 
 
 class Follower:
-    """Takes the picture anew whenever a field of the lens has changed: a
-    draft, then properly. A draft that runs is shown before the next."""
+    """Takes the picture again whenever a setting of the lens has changed: a
+    draft, then in full. A draft in progress is shown before the next
+    begins."""
 
     def __init__(self, state):
         self.seen, self.taking = state, None
-        self.message = ""  # what went wrong, or is warned of
+        self.message = ""  # an error or a warning
 
     def tick(self, scene):
         if bpy.app.is_job_running("RENDER"):
@@ -171,7 +173,7 @@ INTERVAL = 0.1  # seconds
 
 
 def follow():
-    """What Blender calls on its timer."""
+    """The callback of Blender's timer."""
     scene = bpy.context.scene
     if follower is None or not scene.sparselens.live:
         stop_following()
@@ -198,5 +200,5 @@ def stop_following():
 
 @bpy.app.handlers.persistent
 def stop_at_load(*_):
-    """Another file has another camera."""
+    """Stops, because another file has another camera."""
     stop_following()

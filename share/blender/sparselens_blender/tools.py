@@ -1,4 +1,4 @@
-"""Where the tools are that make pictures of views: ldi-warp, dof-gather."""
+"""Finds the tools that make pictures of views: ldi-warp, dof-gather."""
 
 import importlib.metadata
 import os
@@ -11,18 +11,18 @@ NAMES = "ldi-warp", "dof-gather"
 
 
 class NoTool(ValueError):
-    """A tool is not found; the message says where it was looked for."""
+    """A tool is not found; the message says where it was searched."""
 
 
 def folders_beside():
-    """A folder within the add-on, and that of the installation which the
-    add-on is part of: PREFIX/share/sparselens/blender/sparselens_blender."""
+    """The folder bin inside the add-on, and the one of the installation that
+    contains the add-on: PREFIX/share/sparselens/blender/sparselens_blender."""
     yield os.path.join(HERE, "bin")
     yield os.path.normpath(os.path.join(HERE, *[os.pardir] * 4, "bin"))
 
 
 def folders_of_pip():
-    """Where pip has put the tools, for the Python that Blender runs."""
+    """The folder where pip put the tools, for Blender's Python."""
     try:
         files = importlib.metadata.files("sparselens") or []
     except importlib.metadata.PackageNotFoundError:
@@ -39,8 +39,8 @@ def folders_on_path():
 
 
 def candidates(chosen):
-    """(folder, where that is), best first. A folder that somebody has chosen
-    is the only one."""
+    """Pairs (folder, its description), best first. A folder from the
+    preferences is the only candidate."""
     if chosen:
         yield os.path.expanduser(chosen), "the chosen folder"
         return
@@ -57,7 +57,7 @@ def has_tools(folder):
 
 
 def find(chosen=""):
-    """The folder of the tools, and where that is, in words."""
+    """The folder of the tools, and its description."""
     for folder, where in candidates(chosen):
         if has_tools(folder):
             return folder, where
@@ -74,7 +74,7 @@ def tool(folder, name):
 
 
 def version(folder):
-    """What dof-gather says of itself."""
+    """The version line of dof-gather."""
     command = [tool(folder, "dof-gather"), "--version"]
     try:
         done = subprocess.run(command, capture_output=True, text=True,

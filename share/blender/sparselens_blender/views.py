@@ -1,4 +1,4 @@
-"""Which views a frame takes: names, points of the lens, and boxes of pixels."""
+"""The views of a frame: names, points of the lens, and boxes of pixels."""
 
 import math
 import re
@@ -10,7 +10,8 @@ def rim_points(count):
 
 
 def spiral_points(count):
-    """Points spread evenly over the lens, as sunflowers have their seeds."""
+    """Points spread evenly over the lens, in the pattern of sunflower
+    seeds."""
     golden = math.pi * (3 - math.sqrt(5))
     polar = [(math.sqrt((k + 0.5) / count), k * golden) for k in range(count)]
     return [(radius * math.cos(angle), radius * math.sin(angle))
@@ -18,8 +19,8 @@ def spiral_points(count):
 
 
 def plain_name(name):
-    """A plan's name for a view; it becomes a file's in the output folder,
-    and must not lead out of it."""
+    """Checks a plan's name for a view. It becomes a file name in the output
+    folder, and must not lead out of it."""
     if not isinstance(name, str) or not re.fullmatch(r"\w[\w.-]{0,99}", name):
         raise ValueError("--plan: the view %r has no plain name, such as "
                          "view_0" % (name,))
@@ -27,8 +28,8 @@ def plain_name(name):
 
 
 def check_plan(plan, size, supersample):
-    """Refuses a plan of a picture of another size, or of other sub-pixels:
-    its boxes are not where they should be."""
+    """Refuses a plan for a picture of another size or with other sub-pixels,
+    because its boxes would be misplaced."""
     window = plan.get("display_window")
     if window != [0, 0, size[0] - 1, size[1] - 1]:
         raise ValueError(
@@ -42,8 +43,8 @@ def check_plan(plan, size, supersample):
 
 
 def views_of_plan(plan):
-    """Names, lens points and boxes of what a plan of ldi-plan asks for; it
-    was made from the centre view, which is there already."""
+    """Names, lens points and boxes of the views in a plan of ldi-plan. The
+    centre view, which the plan was made from, exists already."""
     return [("%s_%d" % (plain_name(view["name"]), number),
              view["lens_point"], box)
             for view in plan["views"]
@@ -51,7 +52,8 @@ def views_of_plan(plan):
 
 
 def views_of_lens(rim, spread):
-    """The centre, `rim` views from the rim and `spread` all over the lens."""
+    """The centre view, `rim` views from the rim and `spread` all over the
+    lens."""
     return ([("center", (0, 0), None)]
             + [("view_%d" % k, u, None)
                for k, u in enumerate(rim_points(rim))]
