@@ -1,4 +1,4 @@
-// dof-accumulate: averages dense views from the lens, shifted so that the plane of focus stays in place.
+// dof-accumulate: averages dense views over the lens, shifted so that the plane of focus stays in place.
 #include "chain/file_notices.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"

@@ -1,4 +1,4 @@
-// dof-report: measures the error against the run time of every kind of system that makes depth of field.
+// dof-report: measures error and run time of every kind of system that makes depth of field.
 #include "base/error.h"
 #include "harness/tool.h"
 #include "lab/report/summary.h"
@@ -19,7 +19,7 @@ using namespace sparselens;
 using namespace sparselens::lab;
 namespace fs = std::filesystem;
 
-// The other tools lie in the folder of this one.
+// The other tools are in the folder of this one.
 std::string folder_of_tools() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
 RunOptions run_options(const ReportOptions &options, const ToolContext &tool) {

@@ -1,4 +1,4 @@
-// dof-stress: runs stiff and extreme cases and prints the error of each, one line per case.
+// dof-stress: runs extreme and numerically stiff cases and prints the error of each, one line per case.
 #include "base/error.h"
 #include "harness/examples.h"
 #include "harness/tool.h"

@@ -1,5 +1,5 @@
-// dof-trace: renders a test scene: the centre view, views from the lens, deep pictures, a distributed-ray-tracing reference,
-// and two such halves of few rays.
+// dof-trace: renders a test scene: the centre view, views over the lens, deep pictures, a reference by distributed ray
+// tracing, and two such renders with few rays and independent noise.
 #include "harness/tool.h"
 #include "lab/trace/scenes.h"
 #include "lab/tracing/trace_options.h"

@@ -13,13 +13,13 @@ namespace sparselens {
 
 namespace {
 
-// The aperture, if the options ask for one: only then are views outside of it left out.
+// The aperture radius, if the options give one; only then are views outside of it removed.
 std::optional<double> radius_asked_for(const LensViewFiles &files, const LensValues &options) {
     if (!options.fstop && !options.lens_radius) return {};
     return resolve_radius(files.centre);
 }
 
-// A header may claim any display window, so the pixels that it adds are counted against the size of the file.
+// A header may claim any display window, so the pixels that it adds are checked against the file's size.
 Image with_surroundings(const std::string &path, const FlatFile &file) {
     const Imath::Box2i &display = file.image.windows.display, &data = file.image.windows.data;
     const auto extent = [](int a, int b, int c, int d) {
@@ -34,7 +34,7 @@ Image with_surroundings(const std::string &path, const FlatFile &file) {
 } // namespace
 
 ThinLens stop_down(LensViewFiles &files, const LensValues &options) {
-    constexpr double rounding = 1e-5; // of positions in metadata, relative
+    constexpr double rounding = 1e-5; // relative, of positions in metadata
     const std::optional<double> radius = radius_asked_for(files, options);
     if (radius)
         std::erase_if(files.views, [&](const LensViewFile &view) {

@@ -1,4 +1,4 @@
-// Averages the views of a lens, which are read from files.
+// Averages views through a lens that are read from files.
 #pragma once
 
 #include "harness/tool.h"
@@ -7,14 +7,14 @@
 
 namespace sparselens {
 
-// The lens by which the views are shifted. Shifting needs no aperture, so its radius is 1 and lens points are in scene
-// units. If the options give an aperture, the views outside of it are removed from `files`. A pinhole shifts nothing
+// The lens that gives the shift of each view. Shifting needs no aperture, so its radius is 1 and lens points are in
+// scene units. If the options give an aperture, views outside of it are removed from `files`. A pinhole has no shift
 // and needs no other value. Throws Error if no view is left, and UsageError if the focal length or the focus is
 // unknown.
 ThinLens stop_down(LensViewFiles &files, const LensValues &options);
 
 // Reads the views one after another and returns their mean. Outside its data window, a view is black and transparent if
-// `transparent_outside`; otherwise it does not count there. Values that are not finite are replaced, with a warning.
+// `transparent_outside`; otherwise it is left out of the mean there. Non-finite values are replaced, with a warning.
 Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent_outside,
                     const ToolContext &tool);
 

@@ -10,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-// Reads the header of a view; from standard input, which cannot be read twice, the pixels too.
+// Reads the header of a view; from standard input, which can be read only once, the pixels too.
 Imf::Header open_header(LensViewFile &view) {
     if (view.path != "-") return read_flat_header(view.path, view.picture);
     view.pixels = read_flat_exr(view.path, view.picture);
@@ -39,7 +39,7 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
     result.centre_guessed = placed.centre_guessed;
 }
 
-// Frusta may be shifted, as those of views that converge: the files tell it wherever the views' places come from.
+// Reads lens shifts from the files, however the views' positions are given: converging views have shifted frusta.
 void find_shifts(const std::vector<Imf::Header> &headers, bool centre_is_known, LensViewFiles &result) {
     Imath::V2d sum(0, 0);
     for (std::size_t i = 0; i < result.views.size(); ++i) {

@@ -1,5 +1,5 @@
-// The views of a lens that are named on a command line: VIEW.exr, whose camera is in its metadata, and --view X,Y VIEW.exr, moved X
-// right and Y up of the lens centre (scene units). And where each lies on the lens.
+// Views through a lens that a command line names: VIEW.exr with its camera in the metadata, and --view X,Y VIEW.exr,
+// moved X right and Y up from the lens centre (scene units). Finds the position of each view on the lens.
 #pragma once
 
 #include "io/exr/exr_flat.h"
@@ -15,7 +15,7 @@ namespace sparselens {
 struct LensViewOptions {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and file
-    std::string centre;                                      // a file whose camera stands at the lens centre
+    std::string centre;                                      // a file rendered from the lens centre
     PictureChoice picture;                                   // of each file
 };
 
@@ -23,16 +23,16 @@ struct LensViewFile {
     std::string path;
     Imath::V2d position;    // on the lens: relative to its centre, scene units, x right, y up
     Imath::V2d shift{0, 0}; // from the point where its optical axis meets the picture to the centre's, pixels
-    std::optional<FlatFile> pixels; // set if they were read already: standard input can be read only once
+    std::optional<FlatFile> pixels; // set if already read: standard input can be read only once
     PictureChoice picture;          // of the file
     FlatFile take_pixels();         // reads them if needed
 };
 
 struct LensViewFiles {
     std::vector<LensViewFile> views; // not empty
-    Imf::Header header;              // of the centre's file if one is named, else of the first view
+    Imf::Header header;              // of the centre's file if one is given, else of the first view
     Windows windows;                 // of the first view
-    Camera centre;                   // what is known of the camera at the lens centre
+    Camera centre;                   // known properties of the camera at the lens centre
     bool centre_guessed = false;     // see LensViews
 };
 

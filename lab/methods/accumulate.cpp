@@ -32,7 +32,7 @@ struct AxisMove {
 AxisMove axis_move(double shift, int view_min, int view_max, int target_min, int target_max) {
     const double begin = std::ceil(view_min + shift - 0.5), end = std::ceil(view_max + 0.5 + shift);
     AxisMove move;
-    if (!(begin <= target_max && end > target_min)) return move; // also keeps wild shifts out of the integers
+    if (!(begin <= target_max && end > target_min)) return move; // also keeps huge shifts out of the integers
     const double whole = std::floor(-shift);
     move.whole = int(whole);
     move.part = float(-shift - whole);
@@ -41,7 +41,7 @@ AxisMove axis_move(double shift, int view_min, int view_max, int target_min, int
     return move;
 }
 
-// One channel of a view; what lies outside continues the outermost pixels.
+// One channel of a view; outside, the outermost pixels continue.
 struct Plane {
     const float *values;
     const Imath::Box2i &window;
@@ -55,7 +55,7 @@ struct Plane {
 
 using Line = std::vector<float>;
 
-// Integrals over the upper `part` of the pixels of row y.
+// Integrates the parabolas over the upper `part` of each pixel of row y.
 void integrate_row(const Plane &plane, int y, float part, Line &integrals) {
     const std::array rows{plane.row(y - 2), plane.row(y - 1), plane.row(y), plane.row(y + 1),
                           plane.row(y + 2)};
@@ -63,8 +63,8 @@ void integrate_row(const Plane &plane, int y, float part, Line &integrals) {
         integrals[x] = integral_inside(rows[0][x], rows[1][x], rows[2][x], rows[3][x], rows[4][x], part);
 }
 
-// Row y of the view moved along y: `above` and `below` are the integrals of rows y and y + 1. Of it, the
-// columns [begin - 2, end + 3) that a move along x looks at.
+// Row y of the view moved along y: `above` and `below` are the integrals of rows y and y + 1. Only the columns [begin -
+// 2, end + 3), which a move along x reads.
 void moved_row(const Plane &plane, int y, const Line &above, const Line &below, int begin, Line &moved) {
     const float *row = plane.row(y);
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -81,7 +81,7 @@ void add_moved_along_x(const Line &line, float part, Line &integrals, double *su
     for (std::size_t i = 0; i < count; ++i) sums[i] += line[i + 2] + (integrals[i + 1] - integrals[i]);
 }
 
-// Rows [begin, end) of the target.
+// Adds rows [begin, end) of the target.
 void add_rows(const Plane &plane, const AxisMove &across, const AxisMove &down, int begin, int end,
               const Windows &target, double *sums) {
     const std::size_t count = std::size_t(across.end - across.begin);
@@ -102,7 +102,8 @@ void take_ids(const Image &view, std::size_t channel, const Windows &target, dou
                 ids[target.index(x, y)] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
 }
 
-// Adds the pairs of row y of the target, by the areas of the view's pixels that its pixels cover.
+// Adds the id and coverage pairs of row y of the target, weighted by the areas of the view's pixels that its pixels
+// cover.
 void add_mattes(const Image &view, const AxisMove &across, const AxisMove &down, int y, Accumulation &to) {
     const Imath::Box2i &from = view.windows.data;
     for (const Matte &matte : find_mattes(view.channels)) {
@@ -138,7 +139,7 @@ void average_mattes(const Accumulation &accumulation, Image &image) {
         });
 }
 
-// Where the view has each of the channels.
+// The index of each channel in the view.
 std::vector<std::size_t> channels_in(const Image &view, const std::vector<Channel> &channels,
                                      const std::string &file) {
     std::vector<std::size_t> indices;
@@ -216,7 +217,7 @@ Image average(const Accumulation &accumulation) {
 
 namespace {
 
-// Mean of the finite values among the neighbours of pixel (x, y), 0 where there are none.
+// Mean of the finite values among the neighbours of pixel (x, y), 0 if there are none.
 float mean_of_neighbours(const Image &image, std::size_t channel, int x, int y) {
     const Imath::Box2i &window = image.windows.data;
     double sum = 0;
@@ -235,7 +236,7 @@ float mean_of_neighbours(const Image &image, std::size_t channel, int x, int y) 
 
 std::size_t fill_nonfinite(Image &image, const std::vector<Channel> &channels) {
     const Windows &w = image.windows;
-    std::vector<std::pair<std::size_t, float>> repairs; // made at the end, from the values as they came
+    std::vector<std::pair<std::size_t, float>> repairs; // applied at the end, computed from original values
     for (const Channel &channel : channels) {
         const std::size_t k = find_channel(image.channels, channel.name);
         if (k == npos || holds_ids(channel)) continue;

@@ -48,20 +48,20 @@ struct Accumulation {
 };
 
 // An empty sum. Depth channels (Z, depth.Z, *.Depth.Z and their ZBack) are left out of `channels`, because an average
-// of depths is not the depth of anything.
+// of depths is not a depth.
 Accumulation start_accumulation(const Windows &windows, const std::vector<Channel> &channels);
 
 // Adds `view`, shifted by `shift` pixels (y down): its point q moves to q + shift. Only pixels whose centre comes from
-// inside the data window of the view count as covered. Values must be finite. Throws Error, naming `file`, where a
-// channel is missing, or holds ids in one view and values in another.
+// inside the data window of the view count as covered. Values must be finite. Throws Error, naming `file`, if a channel
+// is missing, or holds ids in one view and values in another.
 void accumulate(Accumulation &accumulation, const Image &view, const Imath::V2d &shift,
                 const std::string &file);
 
-// The mean over the views that cover a pixel; 0 where none does.
+// The mean over the views that cover a pixel; 0 if none does.
 Image average(const Accumulation &accumulation);
 
-// In these channels, replaces each value that is not finite by the mean of its finite neighbours (of eight), or by 0
-// where there are none, so that a bad pixel stays a single pixel. Returns the number of such values.
+// In these channels, replaces each non-finite value by the mean of its finite neighbours (of eight), or by 0 if there
+// are none, so that a bad pixel stays a single pixel. Returns the number of such values.
 std::size_t fill_nonfinite(Image &image, const std::vector<Channel> &channels);
 
 // The picture, extended to its display window by transparent black.

@@ -1,4 +1,4 @@
-// Makes the scatter a method of the program that this file is linked into.
+// Adds the scatter to the methods of the program that this file is linked into.
 #include "deep/channel_alpha.h"
 #include "dof/methods.h"
 #include "lab/methods/scatter.h"

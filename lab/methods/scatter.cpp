@@ -13,7 +13,7 @@ namespace {
 
 struct Fragment {
     int bin;
-    double weight;     // of the PSF in the destination pixel
+    double weight;     // PSF weight in the destination pixel
     std::size_t splat; // index
 };
 
@@ -37,7 +37,7 @@ Imath::Box2i footprint(const Splat &splat, double pixel_aspect, const Imath::Box
             {high(splat.position.x + rx, box.max.x), high(splat.position.y + ry, box.max.y)}};
 }
 
-// For each pixel of the box, in rows, what falls into it.
+// The fragments that fall into each pixel of the box, row by row.
 std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const std::vector<Splat> &splats,
                                                 double pixel_aspect) {
     const Grid grid(box);
@@ -55,7 +55,7 @@ std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const s
     return fragments;
 }
 
-// Their sums, bin by bin from front to back, with the bins' numbers.
+// Sums of the fragments bin by bin, front to back, and the bins' numbers.
 struct Bins {
     std::vector<int> numbers;
     std::vector<double> sums; // [bin][size]
@@ -81,7 +81,7 @@ Bins sum_bins(std::vector<Fragment> &fragments, const std::vector<Splat> &splats
     return bins;
 }
 
-// Blends what fell into pixel (x, y); returns alpha.
+// Blends the fragments of pixel (x, y); returns alpha.
 double blend_fragments(std::vector<Fragment> &fragments, const std::vector<Splat> &splats,
                        const SplatSource &source, int x, int y, std::span<double> colours) {
     const std::size_t layer_size = sums_before_colours + colours.size(), bin_size = layer_size + 1;
@@ -113,7 +113,7 @@ void scatter_into(Image &image, const Imath::Box2i &box, const std::vector<Splat
         }
 }
 
-// About how many fragments fall into a pixel.
+// An estimate of the number of fragments per pixel.
 double fragments_per_pixel(const std::vector<Splat> &splats, const Imath::Box2i &data, double pixel_aspect) {
     double sum = 0;
     for (const Splat &splat : splats) {
@@ -130,7 +130,7 @@ Image scatter(const Ldi &ldi, const ThinLens &lens, const ScatterOptions &option
     const std::vector<Splat> splats = all_splats(source);
     Image image = image_with_ids(ldi);
     const Imath::Box2i &data = ldi.windows.data;
-    // Parts of rows, so small that some in flight at once stay within the limit.
+    // Parts of rows, small enough that the parts in progress stay within the limit.
     constexpr double in_flight = 64;
     const double pixels = double(options.fragments) / in_flight /
                           std::max(1.0, fragments_per_pixel(splats, data, lens.pixel_aspect));

@@ -23,7 +23,8 @@ Is renderer_is(const std::string &name) {
     return [name](const ReportRow &row) { return row.renderer == name; };
 }
 
-// What another program made of the centre view and its depths: the parentheses tell its options.
+// Whether another program made the row from the centre view and its depths. Such a row has the program's options in
+// parentheses.
 bool of_another_program(const ReportRow &row) {
     return row.renderer == "one view" && row.processor.find('(') != std::string::npos;
 }
@@ -35,7 +36,7 @@ Curve quality_by_rays(Rows rows, const Is &is) {
     return curve_of(points);
 }
 
-// The budgets of five views where another way has as many rays, and by how many dB that is better.
+// A budget of five views for which the other way has measured as many rays, and the other way's advantage in dB.
 struct Difference {
     double rays, db;
 };
@@ -53,7 +54,7 @@ std::string list_of(const std::string &list, const std::string &entry) {
     return list.empty() ? entry : list + "; " + entry;
 }
 
-// "fence at 320 rays (4.2 dB)": those of the differences that are above 0, or below it.
+// "fence at 320 rays (4.2 dB)": the differences above 0 if `theirs`, else the others.
 std::string where(const std::string &scene, const std::vector<Difference> &all, bool theirs) {
     std::string rays;
     double most = 0;
@@ -94,7 +95,7 @@ const ReportRow *best(Rows rows, const Is &is) {
     return found;
 }
 
-// What a note costs: the gather alone, or all rays again.
+// The cost of a note: only the gather with views, all rays again with ray tracing.
 void add_notes(std::span<const Rows> scenes, std::vector<Answer> &answers) {
     Answer answer{"What does a note cost (focus, stop)?",
                   "nowhere: the views stay; a wider lens or another camera needs new ones", ""};

@@ -1,7 +1,8 @@
-// What people ask of a report, answered from its rows in a few lines: where other ways are better than five views, first.
+// Answers people's questions about a report in a few lines, from its rows; cases where other ways are better than five
+// views come first.
 //
-// "Five views" are the centre and four of the rim, seen by the lens gather at normal quality. Others are compared at equal rays: their
-// measured curve is interpolated, and never extrapolated.
+// "Five views" are the centre view and four rim views, gathered by the lens gather at normal quality. Other ways are
+// compared at equal rays: their measured curve is interpolated, never extrapolated.
 #pragma once
 
 #include "lab/report/row.h"
@@ -14,11 +15,11 @@ namespace sparselens::lab {
 
 struct Answer {
     std::string question;
-    std::string losses; // scene by scene, where the other way is better; "nowhere"
-    std::string gains;  // where five views are
+    std::string losses; // scenes where the other way is better; "nowhere"
+    std::string gains;  // scenes where five views are better
 };
 
-// `scenes` are the rows of each. A question about a way that no scene has measured is left out.
+// `scenes`: the rows of each scene. Questions about ways that no scene has measured are left out.
 std::vector<Answer> answers(std::span<const std::span<const ReportRow>> scenes);
 
 } // namespace sparselens::lab

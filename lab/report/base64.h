@@ -1,4 +1,4 @@
-// Base64 of RFC 4648, with padding, by which a page embeds its pictures.
+// Base64 of RFC 4648, with padding, for pictures embedded in a page.
 #pragma once
 
 #include <span>

@@ -26,7 +26,7 @@ std::string line_of(const Fields &fields, std::string Fields::value_type::*part)
     return line + '\n';
 }
 
-// Only what was interpolated is a value; bounds are left to the page, which can say that they are bounds.
+// Only an interpolated value is exact. Bounds are left to the page, which can mark them.
 std::string exact(const Reached &reached) {
     return reached.bound == Reached::exactly ? shortest(reached.cost) : "";
 }

@@ -7,7 +7,7 @@ namespace sparselens::lab {
 
 namespace {
 
-// `share` of the way from a to b, [0, 1], in log(cost).
+// The cost at `share`, [0, 1], of the way from a to b in log(cost).
 double cost_between(const CurvePoint &a, const CurvePoint &b, double share) {
     return a.cost * std::pow(b.cost / a.cost, share);
 }

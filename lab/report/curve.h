@@ -22,7 +22,7 @@ using Curve = std::vector<CurvePoint>;
 // Keeps the best of several points at one cost, and drops points that are not finite or have no cost.
 Curve curve_of(std::span<const CurvePoint> points);
 
-// The quality at that cost, or nothing where it lies outside the measured costs.
+// The quality at that cost; nothing if it is outside the measured costs.
 std::optional<double> quality_at(const Curve &curve, double cost);
 
 // The cost at which a curve first reaches a quality. The ends of the curve are bounds, not estimates.

@@ -33,7 +33,7 @@ std::string data_url(const char *type, const std::string &bytes) {
     return std::string("data:") + type + ";base64," + base64(bytes);
 }
 
-// Which of the pictures is chosen on one side of the viewer.
+// A choice of the picture on one side of the viewer.
 std::string choice(const char *side, const std::vector<PagePicture> &pictures, std::size_t chosen) {
     std::string html = std::string("<label>") + side + " <select class=\"" + side + "\">\n";
     for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -42,7 +42,7 @@ std::string choice(const char *side, const std::vector<PagePicture> &pictures, s
     return html + "</select></label>\n";
 }
 
-// Left of the slider one picture, right of it another; page.js moves, flips, subtracts and zooms.
+// Shows one picture left of the slider and another right of it; page.js moves, flips, subtracts and zooms.
 std::string viewer(const std::vector<PagePicture> &pictures) {
     if (pictures.empty()) return "";
     std::string html = "<div class=\"viewer\">\n<div class=\"controls\">\n" +

@@ -17,11 +17,11 @@ struct PagePicture {
 struct PageScene {
     std::span<const ReportRow> rows;
     std::vector<std::string> sentences;  // the verdict
-    std::vector<std::string> plots;      // SVG files: the ways that are used
-    std::vector<std::string> more_plots; // and all that were measured, on demand
+    std::vector<std::string> plots;      // SVG files: the ways in use
+    std::vector<std::string> more_plots; // all measured ways, on demand
     // All of the same size; the first is the reference, the second is shown beside it.
     std::vector<PagePicture> pictures;
-    // The worst 8 x 8 pixels of each row amid what surrounds them, and the reference's beside them.
+    // The worst 8 x 8 pixels of each row with their surroundings, beside the same part of the reference.
     std::vector<PagePicture> worst;
 };
 

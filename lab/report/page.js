@@ -1,4 +1,4 @@
-// One viewer a scene: the left picture lies above the right one and is cut off at the slider.
+// One viewer per scene: the left picture is above the right one and is cut off at the slider.
 function startViewer(viewer) {
     const part = (name) => viewer.querySelector('.' + name);
     const pictures = viewer.querySelectorAll('.pictures img');
@@ -29,7 +29,7 @@ function startViewer(viewer) {
         show();
     }
 
-    // As large as the page is wide, in whole pixels.
+    // Fits the picture to the width of the page, in whole pixels.
     function fill() {
         const zoom = part('zoom');
         for (const option of zoom.options)

@@ -32,7 +32,8 @@ std::vector<Line> lines_of(std::span<const ReportRow> rows) {
     return lines;
 }
 
-// seconds, rays, root mean square error; equal pictures have none and no place on a logarithmic axis.
+// Seconds, rays, root mean square error. Equal pictures are left out, because an error of 0 is not on a logarithmic
+// axis.
 std::string data_block(const Line &line, std::size_t number) {
     std::string text = fmt::format("$line{} << END\n", number);
     for (const ReportRow *row : line.rows)
@@ -42,7 +43,7 @@ std::string data_block(const Line &line, std::size_t number) {
     return text + "END\n";
 }
 
-// In double quotes gnuplot takes $ and ` literally in titles that are noenhanced; only these two end a string.
+// In double quotes, gnuplot takes $ and ` literally in noenhanced titles; only these two characters need an escape.
 std::string quoted(const std::string &text) {
     std::string result = "\"";
     for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
@@ -61,7 +62,7 @@ std::string style(const Line &line, std::size_t number) {
     return fmt::format("lc rgb \"{}\" lw 1{} ps 0.6", colours[number % std::size(colours)], point);
 }
 
-// Decibels are linear where the error is logarithmic: the right axis is laid beside the left one.
+// Decibels are linear where the error is logarithmic, so the right axis is aligned with the left one.
 std::string ranges(std::span<const ReportRow> rows) {
     double low = std::numeric_limits<double>::infinity(), high = -low; // dB
     for (const ReportRow &row : rows)

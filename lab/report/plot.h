@@ -13,10 +13,10 @@
 
 namespace sparselens::lab {
 
-// The rows of the six ways that people choose between; the literature's others are left out.
+// The rows of the most important ways, six at most. Ways that only the literature has are left out.
 std::vector<ReportRow> rows_in_use(std::span<const ReportRow> rows);
 
-// `rows` are of one scene. `name` is that of the files, without characters that are special to a shell or gnuplot.
+// `rows`: of one scene. `name`: of the files, without characters that are special to a shell or gnuplot.
 std::string plot_script(std::span<const ReportRow> rows, const std::string &name);
 
 } // namespace sparselens::lab

@@ -33,7 +33,7 @@ struct ErrorCauses {
 
 struct ReportRow {
     std::string scene, renderer, processor;
-    std::string budget; // that of the renderer: "16 samples"
+    std::string budget; // of the renderer: "16 samples"
     std::string size{}; // of the picture, pixels: "640x360"
     Role role = Role::other;
     int views = 1;
@@ -43,14 +43,14 @@ struct ReportRow {
     double peak_mb = 0;              // memory of the largest process, MiB
     std::array<ErrorFigures, 1 + region_names.size()> errors{}; // the whole picture, then each region
     std::optional<ErrorCauses> causes;
-    std::optional<Steadiness> pull;  // of a pull of focus to 1.1 times its distance, in 16 frames
+    std::optional<Steadiness> pull;  // of a focus pull to 1.1 times its distance, in 16 frames
     std::string picture, difference; // PNG files, relative to the folder of the report
-    std::string worst{}; // another: the worst 8 x 8 pixels amid others, and the reference's beside them
+    std::string worst{}; // another PNG: the worst 8 x 8 pixels with surroundings, beside the reference
 };
 
 double total_seconds(const ReportRow &row);
 double quality(const ReportRow &row);          // tone-mapped PSNR of the whole picture, dB
-std::string scene_title(const ReportRow &row); // with the picture's size, which times mean nothing without
+std::string scene_title(const ReportRow &row); // with the picture's size, on which times depend
 std::string method_name(const ReportRow &row); // renderer and processor: one line in the plots
 
 } // namespace sparselens::lab

@@ -11,7 +11,7 @@ namespace sparselens::lab {
 
 namespace {
 
-// Whether `a` leaves no reason to take `b`.
+// Whether `a` is no slower and no worse than `b`, and better in one of the two.
 bool beats(const ReportRow &a, const ReportRow &b) {
     const double ta = total_seconds(a), tb = total_seconds(b), qa = quality(a), qb = quality(b);
     return ta <= tb && qa >= qb && (ta < tb || qa > qb);
@@ -26,7 +26,7 @@ std::optional<Beaten> beaten_by_others(std::span<const ReportRow> rows, std::siz
     return Beaten{row, *best, better.size() - 1};
 }
 
-// Beyond the crossing ray tracing is the better choice, and nothing else need be compared.
+// Whether a time is before the crossing. Beyond it ray tracing is the better choice, and no other comparison matters.
 bool below(const Reached &crossing, double seconds) {
     return crossing.bound != Reached::exactly || seconds < crossing.cost;
 }

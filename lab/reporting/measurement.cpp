@@ -48,7 +48,7 @@ void write_png(const std::string &path, const Image &image) {
     write_shown_picture(path, rgb);
 }
 
-// 32 pixels of each amid which a block of 8 x 8 lies, side by side with a line of white between them.
+// 32 x 32 pixels of each picture around an 8 x 8 block, side by side with a white gap.
 Image worst_place_picture(const Image &picture, const Image &reference, const Imath::V2i &block) {
     constexpr int side = 32, gap = 2;
     const int width = picture.windows.width(), height = picture.windows.height();
@@ -125,7 +125,7 @@ private:
         return error.figures().image;
     }
 
-    // Apart from the EXR files, which may be ready-made and lie elsewhere.
+    // A folder of its own, because the EXR files may be ready-made and elsewhere.
     static std::string pictures_of(const PlannedRow &planned) {
         const std::string name =
             planned.row.scene + '/' + method_name(planned.row) + ' ' + planned.row.budget;
@@ -135,7 +135,7 @@ private:
         return "pictures/" + plain;
     }
 
-    // A pixel without coverage was not rendered.
+    // Counts rays of the rendered pixels only: a pixel with alpha 0 was not rendered.
     void add_partial_views(const PlannedRow &planned, ReportRow &row) const {
         for (const std::string &file : matching_files(path(planned.partial_views))) {
             const Image view = read_flat_exr(file).image;

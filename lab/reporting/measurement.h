@@ -16,11 +16,11 @@ namespace sparselens::lab {
 std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepTimes> times,
                                     const std::string &folder, const ToolContext &tool);
 
-// The pictures of the page: the reference, the best of the sparse views, then the fastest and best of each method.
+// The pictures for the page: the reference, the best of the sparse views, then the fastest and best of each method.
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder);
 
-// The worst place of each row beside the reference's.
+// The worst part of each row's picture beside the same part of the reference.
 std::vector<PagePicture> worst_places(std::span<const ReportRow> rows, const std::string &folder);
 
 } // namespace sparselens::lab

@@ -14,9 +14,9 @@ struct ReportOptions {
     std::vector<std::string> scenes;
     std::string folder;
     bool quick = false;
-    std::string size;  // empty: by --quick
-    int reference = 0; // 0: by --quick
-    int runs = 0;      // 0: by --quick
+    std::string size;  // empty: set by --quick
+    int reference = 0; // 0: set by --quick
+    int runs = 0;      // 0: set by --quick
 };
 
 void add_report_options(CLI::App &app, ReportOptions &options);

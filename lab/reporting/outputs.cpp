@@ -34,7 +34,7 @@ bool is_installed(const std::string &program) {
     return false;
 }
 
-// SVG files for the page.
+// Draws the plots; returns SVG files for the page.
 std::vector<std::string> draw_plots(const fs::path &folder, std::span<const ReportRow> rows,
                                     const std::string &name) {
     const std::string script = name + ".gnuplot";

@@ -22,6 +22,6 @@ void write_report(const std::string &folder, std::span<const MeasuredScene> scen
                   std::vector<std::string> facts, const ToolContext &tool);
 
 std::string machine_fact(int threads); // the machine and the date
-std::string load_fact();               // its load: the mean number of running processes in the last minute
+std::string load_fact();               // mean number of running processes in the last minute
 
 } // namespace sparselens::lab

@@ -25,7 +25,7 @@ namespace {
     throw Error(line + ": " + why);
 }
 
-// Keeps what the child says on standard error, in memory.
+// Keeps the child's standard error in memory.
 class Words {
 public:
     Words() : descriptor_(memfd_create("stderr", MFD_CLOEXEC)) {

@@ -16,19 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Letters, digits and a few signs: the name becomes part of files' names, of gnuplot's strings, of the page.
+// Keeps letters, digits and dots, because the name becomes part of file names, gnuplot strings and the page.
 std::string plain_name(const std::string &name) {
     std::string result;
     for (const char c : name) result += std::isalnum(static_cast<unsigned char>(c)) || c == '.' ? c : '-';
     return result;
 }
 
-// "-denoised" of "denoised.exr".
+// "-denoised" for "denoised.exr".
 std::string kind_of(const std::string &ending) {
     return ending == "exr" ? "" : '-' + ending.substr(0, ending.find('.'));
 }
 
-// N of drt_N.exr, or with another ending.
+// N of drt_N.exr, or of drt_N with another ending.
 std::optional<int> rays_of(const std::string &file, const std::string &ending) {
     int rays = 0;
     const char *begin = file.data() + 4, *end = file.data() + file.size();
@@ -38,7 +38,7 @@ std::optional<int> rays_of(const std::string &file, const std::string &ending) {
     return rays;
 }
 
-// Frames of a pull of focus lie beside the picture NAME.exr as NAME.pull.0001.exr and so on.
+// The frames of a focus pull: NAME.pull.0001.exr and so on, beside the picture NAME.exr.
 std::vector<std::string> pull_of(const fs::path &folder, const std::string &file) {
     return matching_files(folder / (fs::path(file).replace_extension().string() + ".pull.*.exr"));
 }
@@ -99,7 +99,7 @@ Rendered ReadyScene::reference(StepList &) const {
     return {.folder = name_ + "/reference", .picture = (folder_ / "reference.exr").string()};
 }
 
-// Takes every (N / rim)-th of N views evenly on the rim.
+// Takes every (N / rim)-th of N views that are evenly spaced on the rim.
 std::optional<Rendered> ReadyScene::views(const ViewFolders &folders, int rim, int samples,
                                           const std::string &ending) const {
     const auto found =

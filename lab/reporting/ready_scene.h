@@ -10,7 +10,7 @@ namespace sparselens::lab {
 
 class ReadyScene : public SceneSource {
 public:
-    // Throws Error where the folder lacks its reference, or a camera.json in it cannot be read.
+    // Throws Error if the folder lacks its reference, or a camera.json in it cannot be read.
     explicit ReadyScene(const std::filesystem::path &folder);
 
     std::string name() const override { return name_; }
@@ -54,7 +54,7 @@ private:
     };
     using ViewFolders = std::vector<ViewFolder>;
 
-    // The rays a pixel of the files with this ending: as rendered, or denoised.
+    // The ray counts per pixel of the files with this ending: as rendered, or denoised.
     std::vector<int> rays(const std::string &ending) const;
     std::optional<Rendered> views(const ViewFolders &folders, int rim, int samples,
                                   const std::string &ending) const;
@@ -62,7 +62,7 @@ private:
 
     std::filesystem::path folder_;
     std::string name_;
-    ViewFolders views_, fine_; // by samples per pixel, each number once; fine: larger than the picture
+    ViewFolders views_, fine_; // by samples per pixel, each count once; fine: larger than the picture
     CameraSummary camera_;     // of the folder itself
 };
 

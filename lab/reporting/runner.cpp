@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a, 64 bits: tells contents apart; nobody forges records.
+// FNV-1a, 64 bits. It distinguishes contents; it does not protect against forgery.
 std::uint64_t hash_of(const std::string &bytes) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : bytes) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3;
@@ -39,7 +39,7 @@ class Runner {
 public:
     explicit Runner(const RunOptions &options) : options_(options) {}
 
-    // What the step is: equal exactly where running it again would give the same.
+    // Identifies a step: equal if and only if running it again would give the same result.
     std::string identity(const Step &step, const std::vector<std::string> &inputs) {
         std::string text = fmt::format("threads {}\n", options_.threads);
         for (const StepCommand &command : step.commands)
@@ -60,9 +60,9 @@ public:
             if (json.at("identity") != identity) return {};
             return StepTimes{json.at("seconds"), json.at("peak_mb"), json.at("runs")};
         } catch (const nlohmann::json::exception &) {
-            return {}; // of another version
+            return {}; // written by another version
         } catch (const Error &) {
-            return {}; // of a run that was cut off
+            return {}; // left by an interrupted run
         }
     }
 

@@ -1,4 +1,4 @@
-// The source of the pictures of a report: a built-in scene, rendered by dof-trace, or a folder of ready-made views.
+// The source of a report's pictures: a built-in scene, rendered by dof-trace, or a folder of ready-made views.
 #pragma once
 
 #include "lab/reporting/steps.h"
@@ -11,7 +11,7 @@
 
 namespace sparselens::lab {
 
-// How much a report measures.
+// The budgets that a report measures.
 struct Budgets {
     std::string size = "640x360";
     int reference = 4096;                              // rays per pixel
@@ -26,22 +26,21 @@ struct PositionedView {
     std::string position; // "X,Y" in scene units from the centre; empty: in the file's metadata
 };
 
-// The pictures from which depth of field is made, or the final picture of renderers that make it themselves.
+// Pictures to make depth of field from, or the final picture of a renderer that makes it itself.
 struct Rendered {
-    std::string folder{};  // for what is made of it, within that of the report
+    std::string folder{};  // for files made from it, inside the report's folder
     std::string picture{}; // the centre view, deep layers, or the final picture
     std::vector<PositionedView> rim{};
     std::vector<std::size_t> steps{}; // the steps that made it
-    double ready_seconds = 0;         // its render time where no step made it
+    double ready_seconds = 0;         // its render time, if no step made it
     int views = 1;
     double rays = 0;         // camera samples per pixel, all views together
-    int planned_samples = 0; // above 0: rim views are partial, with so many samples in each covered pixel
-    int supersample = 1;     // views are so many times as wide as the picture
-    std::vector<std::string>
-        pull{}; // frames of a pull of focus that were rendered the same way; may be empty
+    int planned_samples = 0; // above 0: rim views are partial, with this many samples in each covered pixel
+    int supersample = 1;     // the width of views over the width of the picture
+    std::vector<std::string> pull{}; // frames of a focus pull, rendered the same way; may be empty
 };
 
-// A picture that another way made.
+// A picture made by another program.
 struct Finished {
     std::string renderer, processor, budget;
     Rendered rendered;
@@ -59,9 +58,9 @@ public:
     virtual std::vector<int> lens_views() const = 0;
     virtual std::vector<int> denoised_rays() const {
         return {};
-    } // of denoised(): some ready-made scenes have those
+    } // budgets of denoised(), which some ready-made scenes have
 
-    // Each adds the steps that it needs, and returns nothing where the source does not provide such pictures.
+    // Each adds the steps that it needs, and returns nothing if the source does not provide such pictures.
     virtual Rendered reference(StepList &steps) const = 0;
     virtual std::optional<Rendered> views(int rim, int samples, StepList &steps) const = 0;
     virtual std::optional<Rendered> planned(int rim, int samples, StepList &steps) const = 0;
@@ -69,24 +68,24 @@ public:
     virtual std::optional<Rendered> accumulated(int views, StepList &steps) const = 0;
     virtual std::optional<Rendered> distributed(int rays, StepList &steps) const = 0;
 
-    // Views of more pixels with as many rays: `samples` are those of a pixel of the picture.
+    // Views with more pixels and the same number of rays: `samples` counts per pixel of the picture.
     virtual std::vector<int> fine_samples() const { return {}; }
     virtual std::optional<Rendered> fine_views(int, int, StepList &) const { return {}; }
     virtual std::optional<Rendered> denoised_fine_views(int, int, StepList &) const { return {}; }
     virtual std::vector<Finished> finished() const { return {}; }
 
-    // What a denoiser made of the views, and of the rays over the lens; the seconds are those of both.
+    // Denoised views, and denoised rays over the lens; the seconds include rendering and denoising.
     virtual std::optional<Rendered> denoised_views(int, int, StepList &) const { return {}; }
     virtual std::optional<Rendered> denoised(int, StepList &) const { return {}; }
 };
 
-// Whether the tools of that folder can make a plan and render it.
+// Whether the tools in that folder can make a plan and render it.
 bool can_plan(const std::string &tools);
 
 // `scene` is the name of a built-in scene, or a folder with camera.json, reference.exr, center.exr, view_K.exr and
-// optionally drt_N.exr (N rays per pixel over the lens), what a denoiser made of any of these (center.denoised.exr, ...; lab/denoise),
-// pictures that camera.json lists as "others", frames of a pull of focus (drt_N.pull.0001.exr, ...) and
-// further such folders for other sample counts, or with finer views. Throws UsageError where it is neither.
+// optionally drt_N.exr (N rays per pixel over the lens), denoised versions of these (center.denoised.exr, ...;
+// lab/denoise), pictures that camera.json lists as "others", frames of a focus pull (drt_N.pull.0001.exr, ...) and
+// further such folders for other sample counts, or with finer views. Throws UsageError if it is neither.
 std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans);
 
 } // namespace sparselens::lab

@@ -11,7 +11,7 @@ namespace sparselens::lab {
 
 struct StepCommand {
     Stage stage;
-    // the program, by its name in the folder of the tools, and arguments; paths are relative to the report
+    // the program, by its name in the folder of the tools, and arguments; paths are relative to the report's folder
     std::vector<std::string> words;
 };
 
@@ -19,15 +19,15 @@ struct Step {
     std::string name{}; // unique, fit for a file name; may hold /
     std::vector<StepCommand> commands{};
     std::vector<std::size_t> inputs{};  // indices of earlier steps
-    std::vector<std::string> given{};   // files that are read but made by no step
+    std::vector<std::string> given{};   // input files that no step makes
     std::vector<std::string> outputs{}; // files that exist afterwards
     std::string fresh{};                // a folder that is emptied first; empty: none
-    bool scratch = false;               // that folder is needed between the commands only
+    bool scratch = false;               // that folder is needed only between the commands
     // Pictures that dof-trace rendered into this folder in addition; their seconds are subtracted.
     std::string traced{};
     std::vector<std::string> uncounted{};
-    bool timed = true; // else it is run once, because its time is not needed
-    double weight = 1; // estimated seconds, used only for the time left
+    bool timed = true; // false: run once, because its time is not needed
+    double weight = 1; // estimated seconds, only for the displayed time left
 };
 
 // The times of a step, as medians.

@@ -18,9 +18,9 @@ Words operator+(Words a, const Words &b) {
 }
 
 constexpr int pull_frames = 16;
-constexpr double pull_to = 1.1; // times the focus distance
+constexpr double pull_to = 1.1; // times the original focus distance
 
-// The options as they are given to a tool.
+// The options as words for a tool.
 Words words_of(const LensValues &lens) {
     Words words;
     const auto add = [&](const char *option, const std::optional<double> &value) {
@@ -35,7 +35,7 @@ Words words_of(const LensValues &lens) {
     return words;
 }
 
-// Layers to gather from, and the steps that made them.
+// A file of layers, and the steps that made it.
 struct Layers {
     std::string file;
     std::vector<std::size_t> steps;
@@ -46,7 +46,7 @@ public:
     Chain(const Rendered &rendered, const Words &lens, const Budgets &budgets, StepList &steps)
         : rendered_(rendered), lens_(lens), budgets_(budgets), steps_(steps) {}
 
-    // Sparse views are warped into one LDI; what came as one picture is taken as it is.
+    // Warps sparse views into one LDI; a single picture is used as it is.
     Layers warp() {
         Layers rendered{rendered_.picture, rendered_.steps};
         if (rendered_.rim.empty()) return rendered;
@@ -57,7 +57,7 @@ public:
         return then(rendered, Stage::warp, "warped", views, lens_);
     }
 
-    // And clustered, for methods whose work grows with the layers.
+    // Warps and clusters, for methods whose work grows with the layers.
     Layers layers(const std::string &name, const Words &cluster_words) {
         Layers warped = warp();
         if (rendered_.rim.empty()) return warped;
@@ -68,7 +68,7 @@ public:
         return then(from, Stage::process, name, {"dof-gather", from.file}, words + size() + lens_, weight);
     }
 
-    // Not part of anybody's time.
+    // This step counts in no row's time.
     std::string many_points() {
         const Layers from = warp();
         const Words words{"--method", "lens", "--lens-samples", fmt::to_string(budgets_.many_points)};
@@ -77,7 +77,7 @@ public:
         return made.file;
     }
 
-    // A pull of focus from `focus` on. Not part of anybody's time either.
+    // A focus pull that starts at `focus`. Its step counts in no row's time either.
     std::vector<std::string> pull(const std::string &quality, double focus) {
         const Layers from = warp();
         const std::string name = rendered_.folder + "/pull-" + quality;
@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    // The picture has the size of the reference, whatever that of the views.
+    // Reduces the picture to the size of the reference, if the views are larger.
     Words size() const {
         return rendered_.supersample == 1 ? Words{}
                                           : Words{"--supersample", fmt::to_string(rendered_.supersample)};
@@ -133,8 +133,8 @@ private:
 
 struct Processor {
     const char *name;
-    bool quick; // measured in a quick report too
-    bool lens;  // sees the layers through each point of the lens
+    bool quick; // also measured in a quick report
+    bool lens;  // sees the layers through each lens point
     Layers (*process)(Chain &);
     const char *quality = ""; // of the lens gather
 };
@@ -165,12 +165,12 @@ const Processor scattered{"scatter", true, false, scatter}, gathered{"gather", t
 
 struct System {
     const char *renderer;
-    const char *unit; // of its budget, singular
+    const char *unit; // of the budget, singular
     std::vector<int> (SceneSource::*budgets)() const;
     std::optional<Rendered> (*render)(const SceneSource &, int budget, StepList &);
-    std::vector<const Processor *> processors; // none: it renders depth of field itself
-    Role role_of_lens;  // of the rows whose processor is the lens gather, or of all without one
-    bool pulls = false; // with the largest budget, the steadiness of the lens gather is measured too
+    std::vector<const Processor *> processors; // empty: the renderer makes depth of field itself
+    Role role_of_lens;  // of the rows of the lens gather, or of all rows without a processor
+    bool pulls = false; // at the largest budget, also measures how steady the lens gather is
 };
 
 template <int Rim>

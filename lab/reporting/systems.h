@@ -1,4 +1,4 @@
-// The kinds of systems that a report compares: what is rendered, and what makes depth of field of it.
+// The systems that a report compares: a renderer, and a processor that makes depth of field from its pictures.
 #pragma once
 
 #include "lab/reporting/scene_source.h"
@@ -17,18 +17,18 @@ struct PlannedRow {
     std::string partial_views{}; // a pattern of views whose rays are known only after rendering; else empty
     int partial_samples = 0;     // per pixel of these
     std::string many_points{};   // the same layers seen through many lens points; empty without layers
-    std::vector<std::string> pull{}; // frames of a pull of focus over the same layers; empty: none is made
+    std::vector<std::string> pull{}; // frames of a focus pull over the same layers; empty: none is made
 };
 
 struct ScenePlan {
     std::string name;
     LensValues lens;
     Rendered reference;
-    Rendered centre; // its depths define the regions of the picture
+    Rendered centre; // its depths define the picture's regions
     std::vector<PlannedRow> rows;
 };
 
-// The processors to measure: a quick report leaves out variants of the same one.
+// The processors to measure: a quick report leaves out variants.
 enum class Detail { all, one_of_each };
 
 // Adds the steps that the rows of the scene need.

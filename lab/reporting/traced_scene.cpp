@@ -11,9 +11,9 @@ namespace sparselens::lab {
 
 namespace {
 
-constexpr int layer_count = 4;       // of depth peeling and strata
-constexpr int fine = 2;              // times the size of the picture, of fine views
-constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by parts of a pixel costs much
+constexpr int layer_count = 4;       // for depth peeling and strata
+constexpr int fine = 2;              // size of fine views, relative to the picture
+constexpr int lens_view_samples = 4; // per pixel: with fewer, sub-pixel shifts of the views cost much
 
 std::vector<std::string> view_files(const std::string &folder, int rim) {
     std::vector<std::string> files{folder + "/center.exr"};
@@ -51,7 +51,7 @@ StepCommand TracedScene::trace(const std::string &folder, int samples, int rim,
     return command;
 }
 
-// Its random numbers are its own: noise it shared with what is measured would pass for agreement.
+// Uses its own random numbers: noise shared with the measured pictures would look like agreement.
 Rendered TracedScene::reference(StepList &steps) const {
     const std::string folder = name_ + "/reference";
     Step step{
@@ -68,7 +68,7 @@ std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps
     return views(rim, samples, 1, steps);
 }
 
-// The budgets that give each pixel of a fine view a whole number of samples.
+// The budgets for which each pixel of a fine view gets a whole number of samples.
 std::vector<int> TracedScene::fine_samples() const {
     std::vector<int> samples = budgets_.samples;
     std::erase_if(samples, [](int count) { return count % (fine * fine) != 0; });
@@ -143,7 +143,7 @@ std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) cons
     return Rendered{.folder = folder, .picture = picture, .steps = {made}, .rays = double(rays)};
 }
 
-// What a plan asks for is known only when it is there: the views are named by a pattern, their rays counted later.
+// A plan's requests are known only after it is made, so the views are named by a pattern and their rays counted later.
 std::optional<Rendered> TracedScene::planned(int rim, int samples, StepList &steps) const {
     if (!can_plan_) return {};
     const Rendered centre = *views(0, samples, steps);

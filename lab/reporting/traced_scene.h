@@ -1,4 +1,4 @@
-// A built-in scene, of which dof-trace renders exactly what the rows need.
+// A built-in scene. dof-trace renders only the pictures that the rows need.
 #pragma once
 
 #include "lab/reporting/scene_source.h"
