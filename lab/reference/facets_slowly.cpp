@@ -15,27 +15,28 @@ using V2 = Imath::Vec2<long double>;
 
 long double cross(const V2 &a, const V2 &b) { return a.x * b.y - a.y * b.x; }
 
-// A facet as a lens point sees it, and the place that it looks at.
+// A facet as a lens point sees it, and the point that the lens point looks at.
 struct SeenFacet {
     std::array<V2, 3> corner;
     V2 at;
-    long double unclear = 0; // how far rounding may move any of them
+    long double unclear = 0; // how far rounding may move any of these points
 
     V2 side(std::size_t k) const {
         return corner[(k + 2) % 3] - corner[(k + 1) % 3];
-    } // over against corner k
+    } // the side opposite corner k
     bool from_behind() const { return cross(side(2), side(0)) < 0; }
     long double weight(std::size_t k) const {
         return (from_behind() ? -1 : 1) * cross(side(k), at - corner[(k + 1) % 3]);
     }
 
-    // All corners lie to one side of the place, whatever rounding does. Most do, and the rest takes ten times as long to find out.
+    // Whether all corners are on one side of the point, whatever rounding does. This is true of most facets, and the
+    // exact test takes ten times as long.
     bool beside() const {
         const auto &[a, b, c] = corner;
         return std::min({a.x, b.x, c.x}) > at.x + unclear || std::max({a.x, b.x, c.x}) < at.x - unclear ||
                std::min({a.y, b.y, c.y}) > at.y + unclear || std::max({a.y, b.y, c.y}) < at.y - unclear;
     }
-    // The distance of the place to the nearest side; less than 0 outside.
+    // The distance of the point to the nearest side; less than 0 outside.
     Margin inside() const {
         Margin margin{INFINITY, unclear};
         for (std::size_t k = 0; k < 3; ++k)
@@ -48,7 +49,7 @@ struct SeenFacet {
             widest = std::max({widest, std::abs(side(k).x), std::abs(side(k).y)});
         return {widest - (long double)kernels::parted_px, 2 * unclear};
     }
-    // How far the place is from where the next corner would weigh most; corner k weighs most where that is above 0.
+    // How far the point is inside the region where corner k has the largest weight; less than 0 outside.
     Margin nearest(std::size_t k) const {
         Margin margin{INFINITY, unclear};
         for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3})

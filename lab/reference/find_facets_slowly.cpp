@@ -11,8 +11,8 @@ namespace sparselens {
 
 namespace {
 
-// An opaque sample, the pixel that holds it, and its perceptive depth: a float, as where it is sorted, so that what is as near
-// here is as near there.
+// An opaque sample, its pixel, and its perceptive depth. The depth is a float, as where samples are sorted, so that
+// equal depths are equal in both places.
 struct Opaque {
     Imath::V2i pixel;
     std::uint64_t sample;
@@ -50,19 +50,19 @@ public:
         if (!closed) add(b, c);
     }
 
-    // What it is linked to in the pixel one step on.
+    // The sample that `a` is linked to in the pixel one step on.
     Found linked(const Opaque &a, const Imath::V2i &step) const {
         const Found b = nearest(a.pixel + step, double(a.depth));
         if (!b) return {};
         const double d = double(b->depth) - double(a.depth);
         if (std::abs(d) < double(steep_px)) return b;
-        // Five steps in a line, the middle one from a to b; those before it as they are met on the way back, which is down where
-        // the way on is up.
+        // Five steps in a line; the middle one goes from a to b. The steps before it are followed backwards, where a
+        // rise is a fall.
         const auto after = next_steps(*b, step, d), before = next_steps(a, Imath::V2i(0) - step, -d);
         const double line[] = {-before[1], -before[0], d, after[0], after[1]};
         double s = 0;
         for (int first = 0; first <= 2; ++first) {
-            double smaller = INFINITY; // of the other two of these three
+            double smaller = INFINITY; // of the other two of these three steps
             for (int k = first; k < first + 3; ++k)
                 if (k != 2) smaller = std::min(smaller, std::abs(line[k]));
             s = std::max(s, smaller);
@@ -79,7 +79,8 @@ private:
         return nearest;
     }
 
-    // Steps of depth from pixel to pixel, each looked for where the last one leads; 0 where there is none that runs its way.
+    // Steps of depth from pixel to pixel, each searched at the depth to which the last one leads; 0 from where a step
+    // has the other sign or is missing.
     std::array<double, 2> next_steps(Opaque from, const Imath::V2i &step, double last) const {
         std::array<double, 2> steps{0, 0};
         for (double &s : steps) {

@@ -1,5 +1,5 @@
-// The facets of a picture, slow and obvious, from what dof/facets/facets.h says and none of the kernel's code: each step from
-// pixel to pixel is looked for anew. Tests find_facets().
+// Finds the facets of a picture slowly and simply, from the definition in dof/facets/facets.h and without the kernel's
+// code: each step from pixel to pixel is searched anew. Tests find_facets().
 #pragma once
 
 #include "deep/ldi.h"
@@ -12,11 +12,11 @@
 
 namespace sparselens {
 
-// Samples of the LDI, three for each facet, in no particular order.
+// The three samples of each facet, in no particular order.
 std::vector<std::array<std::uint64_t, 3>> find_facets_slowly(const Ldi &ldi, const ThinLens &lens,
                                                              double widest);
 
-// The sample that an opaque one of `pixel` (EXR coordinates) is linked to in the pixel one step on.
+// The sample that an opaque sample of `pixel` (EXR coordinates) is linked to in the pixel one step on.
 std::optional<std::uint64_t> linked_slowly(const Ldi &ldi, const ThinLens &lens, std::uint64_t sample,
                                            const Imath::V2i &pixel, const Imath::V2i &step);
 

@@ -13,15 +13,15 @@ namespace sparselens {
 
 namespace {
 
-// The last thing that a pixel holds.
+// The last thing in a pixel.
 struct Ground {
     Imath::V2i pixel;
     double depth;                        // perceptive
-    std::optional<std::uint64_t> sample; // none: nothing
+    std::optional<std::uint64_t> sample; // empty: nothing
 };
 using Found = std::optional<Ground>;
 
-// A ground that goes on from so many pixels away, and what it shows.
+// A ground that continues from `distance` pixels away, and what it shows.
 struct Side {
     int distance;
     Ground ground, shown;
@@ -86,7 +86,7 @@ private:
         return known_.intersects(pixel) ? Found(Ground{pixel, 0, {}}) : Found();
     }
 
-    // Whether it is hidden by each pixel up to n on, as it is where it goes on.
+    // Whether each pixel up to n on hides the ground, as it must where the ground continues.
     bool reaches(const Ground &from, const Imath::V2i &on, int n) const {
         for (int m = 1; m <= n; ++m) {
             const Found other = ground(from.pixel + m * on);
@@ -105,7 +105,8 @@ private:
         return {};
     }
 
-    // The ground before its last one, where the last one's colour is a mixture.
+    // If the last sample's colour is a mixture with what hides it, the ground one pixel before it; else the last
+    // ground.
     Ground shown_by(const Ground &last, const Imath::V2i &on) const {
         const Found before = ground(last.pixel - on), hides = ground(last.pixel + on);
         if (!before || !hides || !last.sample || !before->sample || !hides->sample) return last;
@@ -116,7 +117,7 @@ private:
         return *before;
     }
 
-    // None where there are no R, G and B.
+    // Empty if there are no R, G and B.
     std::optional<Imath::V3d> colour(const Ground &of) const {
         Imath::V3d colour;
         for (const int k : {0, 1, 2}) {

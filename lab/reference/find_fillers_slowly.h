@@ -1,5 +1,5 @@
-// The fillers of a picture, slow and obvious, from what dof/lens/fillers.h says and none of the kernel's code: each pixel looks along
-// its row and its column for the grounds that go on as far as to it. Tests find_fillers().
+// Finds the fillers of a picture slowly and simply, from the definition in dof/lens/fillers.h and without the kernel's
+// code: each pixel searches its row and its column for grounds that continue up to it. Tests find_fillers().
 #pragma once
 
 #include "dof/lens/fillers.h"
@@ -8,7 +8,7 @@
 
 namespace sparselens {
 
-// In the order of the pixels. Nothing is known outside `known`.
+// The fillers in the order of the pixels. Nothing outside `known` is known.
 std::vector<Filler> find_fillers_slowly(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
 
 } // namespace sparselens

@@ -14,19 +14,19 @@ namespace sparselens {
 
 namespace {
 
-constexpr double torn = 1; // pixels of perceptive depth: surfaces that are farther apart are two
+constexpr double torn = 1; // pixels of perceptive depth: surfaces farther apart are separate
 
 struct Edge {
     double place, coc;
     double seen(double u) const { return place + coc * u; }
 };
 
-// A sample where the lens sees it.
+// A sample as the lens sees it.
 struct Seen {
     Imath::V2i pixel;
     Imath::V2d place;
-    double coc;   // by which it moves where it hides
-    double shine; // by which its light moves
+    double coc;   // displacement where it hides
+    double shine; // displacement of its light
     double depth; // perceptive, pixels
     double alpha;
     Edge left, right, above, below;
@@ -57,7 +57,7 @@ Samples place(const Ldi &ldi, const ThinLens &lens) {
     return samples;
 }
 
-// The sample of that pixel which is one surface with `own`; null if none is.
+// The sample of that pixel on one surface with `own`; null if there is none.
 const Seen *neighbour(const Samples &samples, const Seen &own, const Imath::V2i &pixel) {
     const Seen *found = nullptr;
     double least = torn;
@@ -87,7 +87,7 @@ void find_edges(const Ldi &ldi, const ThinLens &lens, const Samples &samples, st
     own.below = edge({0, 1});
 }
 
-// `u` in pixels of CoC: y down, times the pixel aspect.
+// `u`: a lens point, in pixels per pixel of CoC: y down, times the pixel aspect.
 bool covers(const Seen &s, const Imath::V2d &u, const Imath::V2d &q) {
     return s.left.seen(u.x) <= q.x && q.x < s.right.seen(u.x) && s.above.seen(u.y) <= q.y &&
            q.y < s.below.seen(u.y);
@@ -119,7 +119,7 @@ public:
 private:
     void add_from_place(SlowlyLit &sum, const SlowLamp &lamp, const Imath::V2i &pixel, int side) const {
         const double c = samples_[lamp.sample].shine;
-        const double share = 1 / (std::numbers::pi * c * c * aspect_ * side * side); // of one place
+        const double share = 1 / (std::numbers::pi * c * c * aspect_ * side * side); // of one point
         for (int row = 0; row < side; ++row)
             for (int column = 0; column < side; ++column) {
                 const Imath::V2d q = Imath::V2d(pixel) + Imath::V2d(column + 0.5, row + 0.5) / side;
@@ -129,7 +129,7 @@ private:
             }
     }
 
-    // Places in the lens, and how much of the square lies in the pixel as each sees it.
+    // Adds the light over points of the lens, weighted by the share of the square that each sees inside the pixel.
     void add_from_square(SlowlyLit &sum, const SlowLamp &lamp, double square, const Imath::V2i &pixel,
                          int side) const {
         const int places = 8 * side;
@@ -159,7 +159,7 @@ private:
         return (q - samples_[lamp.sample].place) / samples_[lamp.sample].shine;
     }
 
-    // The share of a lamp's light that comes through u to q.
+    // The share of the lamp's light that passes through lens point u to q.
     double passed(const SlowLamp &lamp, const Imath::V2d &u, const Imath::V2d &q) const {
         double left = 1;
         for (std::size_t i = 0; i < samples_.size(); ++i) {

@@ -15,10 +15,10 @@ namespace {
 
 constexpr long double infinity = std::numeric_limits<long double>::infinity();
 
-// Share of the weight of all lens points: less coverage is not seen at all.
+// Share of the weight of all lens points. A pixel with less coverage counts as empty.
 constexpr long double least_coverage = 1e-6L;
 
-// All of them over each other, of each light(m); at the least and at the most by leaving out what is not sure.
+// Composites all samples with light(m). The least and the most are the bounds if unsure samples may be left out.
 template <typename Light>
 ReferenceValue composite(const std::vector<Met> &met, const Light &light) {
     ReferenceValue sum;
@@ -33,7 +33,7 @@ ReferenceValue composite(const std::vector<Met> &met, const Light &light) {
     return sum;
 }
 
-// What weighs a channel's light.
+// Which weight of a lens point applies to a channel.
 enum class Kind { red, green, blue, coverage, data };
 
 Kind kind_of(const Channel &channel) {
@@ -72,7 +72,7 @@ void add(ReferenceValue &to, long double weight, const ReferenceValue &value) {
 
 struct SlowLens {
     std::span<const LensSample> points;
-    const CatEye *cat_eye; // null: none
+    const CatEye *cat_eye; // null: no cat-eye
     double pixel_aspect;
 
     bool passes(const LensSample &point, const Pixel &pixel) const {
@@ -89,14 +89,14 @@ struct SlowLens {
     }
 };
 
-// What one pixel gathers of one channel.
+// The sums that one pixel gathers for one channel.
 struct Gathered {
     ReferenceValue light, coverage;
-    // Light per coverage of the samples met. The pixel's is a mean of theirs.
+    // Bounds of light per coverage of the samples met. The pixel's value is a mean of theirs.
     long double darkest = infinity, brightest = -infinity;
 };
 
-// Light by coverage; `flattened` where nothing is covered.
+// Light divided by coverage; `flattened` if nothing is covered.
 ReferenceValue normalised(const Gathered &of, long double total, long double flattened) {
     const ReferenceValue &coverage = of.coverage;
     const long double none = least_coverage * total;
@@ -112,7 +112,7 @@ ReferenceValue normalised(const Gathered &of, long double total, long double fla
     return {mean.value, std::min(mean.least, flattened), std::max(mean.most, flattened)};
 }
 
-// The pixel seen without a lens.
+// The pixel as seen without a lens.
 long double flattened(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
     long double passed = 1, sum = 0;
     for (const std::uint64_t i : ldi.pixel(ldi.windows.index(pixel.x, pixel.y))) {
@@ -139,7 +139,7 @@ long double light_of(const Ldi &ldi, std::size_t channel, const Met &met) {
     return met.passes * sum;
 }
 
-// Adds what a lens point sees by these ways. `darkened`: for the mean over lens points, not over their weights.
+// Adds what a lens point sees in these ways. `darkened`: divides by the number of lens points instead of their weights.
 void add_seen(Gathered &to, const Ldi &ldi, std::size_t channel, const LensSample &point,
               std::span<const Way> ways, bool darkened) {
     const Kind kind = kind_of(ldi.channels[channel]);
@@ -158,7 +158,7 @@ void add_seen(Gathered &to, const Ldi &ldi, std::size_t channel, const LensSampl
         }
 }
 
-// The channels of a pixel; `unsure` is set to how many lens points may see something else than they do.
+// The channels of a pixel. `unsure` is set to the number of lens points for which rounding decides what they see.
 std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const SlowLens &lens,
                                    const Pixel &pixel, std::uint32_t &unsure) {
     std::vector<Gathered> channels(ldi.channels.size());
@@ -205,8 +205,8 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
     picture.windows.data = window;
     const std::size_t pixels = picture.windows.pixels(), channels = ldi.channels.size();
     picture.values.resize(channels * pixels);
-    std::vector<std::uint32_t> unsure(pixels); // lens points
-    long double widest = 0;                    // of them
+    std::vector<std::uint32_t> unsure(pixels); // number of lens points
+    long double widest = 0;                    // largest coordinate of them
     for (const LensSample &point : points)
         widest = std::max({widest, (long double)std::abs(point.x), (long double)std::abs(point.y)});
     parallel_for(pixels, [&](std::size_t i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr long double infinity = std::numeric_limits<long double>::infinity();
 
-// What rounding to halves leaves of full coverage, and of nothing: lens_gather_reference.h.
+// Bounds of full coverage and of nothing after rounding to halves: lens_gather_reference.h.
 constexpr long double opaque = 0.9995L, clear = 1.0L / 2048;
 
 long double coc_at(const ThinLens &lens, long double z) {
@@ -22,7 +22,7 @@ long double coc_at(const ThinLens &lens, long double z) {
     return std::isinf(z) ? rf / d : rf / d * ((z - d) / z);
 }
 
-// All samples, and inside the window the backgrounds behind what is not opaque, front to back.
+// All samples, and inside the window the backgrounds behind pixels that are not opaque, front to back.
 std::vector<Placed> place_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window) {
     std::vector<Placed> placed;
     for (int row = ldi.windows.data.min.y; row <= ldi.windows.data.max.y; ++row)
@@ -63,7 +63,7 @@ std::vector<Placed> place_fillers(const Ldi &ldi, const ThinLens &lens, std::spa
     return placed;
 }
 
-// What shows where a sample is solid: the sample itself, or the opaque one around it that is nearest and not behind the solid.
+// The sample that a solid shows: the sample itself, or the nearest opaque one around it that is not behind the solid.
 const Placed *shown_by(const Ldi &ldi, std::span<const Placed> samples, std::uint64_t own,
                        const Imath::V2i &pixel) {
     const auto holds = [&](const Imath::V2i &at, std::uint64_t i) {
@@ -90,7 +90,7 @@ const Placed *shown_by(const Ldi &ldi, std::span<const Placed> samples, std::uin
     return nearest;
 }
 
-// What is solid behind samples, by how near what it hides has to be.
+// The solids behind samples, sorted by the depth from which they hide things.
 std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Placed> samples) {
     std::vector<Placed> placed;
     for (const Placed &s : samples) {
@@ -118,7 +118,7 @@ long double passes(const Placed &s, const Pixel &pixel) {
     return held_out ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(s.shows().z)) : 1;
 }
 
-// Whether the lens point sees the sample in its unit square, and whether rounding does not matter.
+// Whether the lens point sees the sample in its unit square, and whether rounding matters.
 Cover covers(const Placed &s, const LensSample &point, const Imath::Vec2<long double> &at,
              long double extent) {
     const Margin across = margin(s.x, s.coc * (long double)point.x, at.x, extent);
@@ -127,7 +127,7 @@ Cover covers(const Placed &s, const LensSample &point, const Imath::Vec2<long do
     return {true, across.inside > 0 && down.inside > 0, across.sure() && down.sure()};
 }
 
-// What the lens point meets in the pixel, front to back, up to the first that certainly hides all else.
+// The samples that the lens point meets in the pixel, front to back, up to the first that certainly hides the rest.
 void meet(std::span<const Placed> samples, std::span<const std::array<std::size_t, 3>> facets,
           const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
     met.clear();
@@ -145,7 +145,8 @@ void meet(std::span<const Placed> samples, std::span<const std::array<std::size_
     }
 }
 
-// What can be the nearest opaque thing that a lens point meets, null for none; and which it is.
+// The candidates for the nearest opaque thing that a lens point meets, null for none; and the one it is without
+// rounding.
 struct Choice {
     const Placed *is = nullptr;
     std::vector<const Placed *> can_be;
@@ -164,7 +165,7 @@ Choice front_of(std::span<const Met> met) {
     return front;
 }
 
-// The same with the solids that hide something opaque of it.
+// Adds the solids that hide something opaque in `met`.
 void add_solids(const Scene &scene, const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
     if (scene.solids.empty()) return;
     std::vector<Met> solids;
@@ -190,8 +191,8 @@ Choice combined(const Choice &a, const Choice &b, const Combine &combine) {
     return both;
 }
 
-// What a lens point meets first in the pixels around one: left, right, above, below, and in the corners: above to the right, below to
-// the left, above to the left, below to the right.
+// The first opaque things that a lens point meets in the neighbouring pixels: left, right, above, below, and in the
+// corners: above right, below left, above left, below right.
 using Around = std::array<Choice, 8>;
 
 Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &pixel) {
@@ -218,7 +219,7 @@ const Placed *shown_farther(const Placed *first, const Placed *second) {
     return second->shows().z > first->shows().z ? second : first;
 }
 
-// The sample that a lens point sees through a crack, in front of what it meets else; null: nothing.
+// The sample that a lens point sees through a crack in front of `behind`; null: nothing.
 Choice torn_between(const ThinLens &lens, const Around &around, const Placed *behind) {
     const auto may_be_before = [&](const Placed *s) {
         if (!s || s->background) return false;
@@ -237,7 +238,7 @@ Choice torn_between(const ThinLens &lens, const Around &around, const Placed *be
     return farthest;
 }
 
-// The nearest thing such that something as near as it lies on either side of a lens point.
+// The nearest depth that has something at least as near on both sides of a lens point.
 Choice screen_between(const Around &around) {
     const auto both = [](const Placed *a, const Placed *b) { return a && b ? farther(a, b) : nullptr; };
     const auto nearer = [](const Placed *a, const Placed *b) {
@@ -246,7 +247,7 @@ Choice screen_between(const Around &around) {
     return combined(combined(around[0], around[1], both), combined(around[2], around[3], both), nearer);
 }
 
-// The nearest image that lies in a pixel.
+// The nearest image in a pixel.
 Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel, int dx, int dy) {
     const long double x = pixel.x + dx + 0.5L - (long double)point.pixel_x,
                       y = pixel.y + dy + 0.5L - (long double)point.pixel_y;
@@ -270,7 +271,7 @@ Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel,
     return nearest;
 }
 
-// What is seen of a mirror: the nearest image in the pixel, else in one beside it, else what its surface shows.
+// What a mirror shows: the nearest image in the pixel, else in a neighbouring pixel, else the colour of its surface.
 Choice image_of(const Placed &mirror, const Scene &scene, const LensSample &point, const Pixel &pixel) {
     const auto of_mirror = [&](const Placed *s) {
         return s && std::abs(depth_of(scene.lens, s) - depth_of(scene.lens, &mirror)) < 1 ? s : nullptr;
@@ -290,12 +291,12 @@ Choice image_of(const Placed &mirror, const Scene &scene, const LensSample &poin
     return seen;
 }
 
-// As they are sorted; a solid comes before what is as far.
+// The sort order; of two at one depth, a solid comes first.
 bool before(const Placed *a, const Placed *b) {
     return a->z != b->z ? a->z < b->z : a->shown || (!b->shown && a < b);
 }
 
-// The ways to see what the mirrors that a way meets show.
+// Replaces the mirrors of a way by the images that they show, one way for each choice.
 std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSample &point,
                              const Pixel &pixel) {
     std::vector<Way> ways{way};
@@ -314,7 +315,7 @@ std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSampl
     return ways;
 }
 
-// A lens point sees partial samples before what shows through a crack.
+// A lens point sees partial samples in front of a surface that shows through a crack.
 Way through_crack(const std::vector<Met> &partial, const Placed *torn, bool is, const Pixel &pixel) {
     Way way{partial, is};
     const auto behind = std::ranges::find_if(way.met, [&](const Met &m) { return before(torn, m.sample); });
@@ -322,14 +323,15 @@ Way through_crack(const std::vector<Met> &partial, const Placed *torn, bool is, 
     return way;
 }
 
-// What it sees through cracks in front of what it meets.
+// Adds ways that see a surface through a crack in front of everything opaque in the pixel.
 void add_ways_before(std::vector<Way> &ways, const std::vector<Met> &partial, const Choice &torn,
                      const Pixel &pixel) {
     for (const Placed *sample : torn.can_be)
         if (sample) ways.push_back(through_crack(partial, sample, sample == torn.is, pixel));
 }
 
-// A lens point that meets partial samples alone sees them before what it sees through a crack, or before a filler.
+// Adds ways of a lens point that meets only partial samples: behind them it sees a surface through a crack, or a
+// filler.
 void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, bool is, const Scene &scene,
                       const Around &around, const LensSample &point, const Pixel &pixel) {
     const Choice torn = torn_between(scene.lens, around, nullptr), screen = screen_between(around);
@@ -352,7 +354,7 @@ void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, b
     }
 }
 
-// The samples that it sees through cracks in front of any of what it may meet; null: what it meets.
+// The samples seen through cracks in front of any of the candidates; null: the candidate itself is seen.
 Choice torn_before(const ThinLens &lens, const Around &around, const Choice &front) {
     Choice torn;
     for (const Placed *met : front.can_be) {
@@ -384,13 +386,13 @@ Scene near(const Scene &scene, const Pixel &pixel, long double widest) {
     long double coc = 0;
     for (const auto *some : {&scene.samples, &scene.fillers, &scene.solids})
         for (const Placed &s : *some) coc = std::max({coc, std::abs(s.coc), std::abs(s.image_coc)});
-    // Samples lie up to half a pixel beside their own, those of a facet up to two apart, and a pixel looks at those beside it.
+    // Samples may be half a pixel off, those of a facet up to two pixels apart, and a pixel looks at its neighbours.
     const long double reach = coc * widest + 4;
     const auto is_near = [&](const Placed &s) {
         return std::abs(s.x - pixel.x - 0.5L) <= reach && std::abs(s.y - pixel.y - 0.5L) <= reach;
     };
     Scene part{scene.lens, {}, {}, {}, {}};
-    std::vector<std::size_t> place(scene.samples.size(), 0); // in `part`, from 1 on
+    std::vector<std::size_t> place(scene.samples.size(), 0); // index in `part`, plus 1; 0: left out
     for (std::size_t i = 0; i < scene.samples.size(); ++i)
         if (is_near(scene.samples[i])) {
             part.samples.push_back(scene.samples[i]);

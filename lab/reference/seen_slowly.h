@@ -1,5 +1,5 @@
-// What a lens point sees of a pixel, slowly: lens_gather_reference.h says by which rules. In long double, and with
-// every answer that rounding may give.
+// What a lens point sees of a pixel, slowly, by the rules in lens_gather_reference.h. In long double, with every answer
+// that rounding may give.
 #pragma once
 
 #include "deep/holdout.h"
@@ -18,56 +18,58 @@ struct Placed {
     long double x, y, coc, z, alpha; // EXR coordinates, pixels, scene units
     std::uint64_t source;
     bool background;
-    const Filler *filler = nullptr; // where it is one
-    long double image_coc = coc;    // of the image that an opaque sample shows, where it is one of a mirror
-    const Placed *shown = nullptr;  // where it is a solid: the sample that shows there
+    const Filler *filler = nullptr; // if it is a filler
+    long double image_coc = coc;    // of its image, if the sample is an opaque one of a mirror
+    const Placed *shown = nullptr;  // if it is a solid: the sample that it shows
     bool is_image() const { return image_coc != coc; }
     const Placed &shows() const { return shown ? *shown : *this; }
 };
 
-// Everything there is to be seen, front to back.
+// All visible things, front to back.
 struct Scene {
     const ThinLens &lens;
     std::vector<Placed> samples, fillers,
-        solids; // a solid's z is that from which on it hides what is farther
+        solids;                                     // a solid's z is the depth beyond which it hides things
     std::vector<std::array<std::size_t, 3>> facets; // between samples
 };
 
-// All samples, and inside the window the backgrounds behind what is not opaque; the facets between them; and the fillers.
+// All samples, and inside the window the backgrounds behind pixels that are not opaque; the facets between samples; and
+// the fillers.
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers);
 
 struct Pixel {
     int x, y;
-    long double extent; // the largest coordinate there is: a float knows a place to some 1e-7 of it
+    long double extent; // the largest coordinate in use; a float resolves positions to about 1e-7 of it
     const Holdout *holdout;
 };
 
-// The part of a scene that some lens point may see of a pixel or of those beside it, if none lies farther from the middle of the lens in x or
-// in y: what else there is only takes time.
+// The part of a scene that lens points may see in a pixel or its neighbours, if no lens point is farther than `widest`
+// from the middle of the lens in x or in y. Leaving out the rest saves time.
 Scene near(const Scene &scene, const Pixel &pixel, long double widest);
 
-// How far a place is from the edge of what is looked at, inside; and how far rounding may move it.
+// How far a point is inside an edge, and how far rounding may move it.
 struct Margin {
     long double inside, unclear;
     bool outside() const { return inside < -unclear; }
     bool sure() const { return inside > unclear; }
 };
 
-// A sample that a lens point sees, or sees by one way of rounding.
+// A sample that a lens point sees, or may see through rounding.
 struct Met {
     const Placed *sample;
     bool seen, sure;
-    long double passes; // of its light, the holdout
+    long double passes; // the share of its light that the holdout passes
 };
 
-// One way in which a lens point may see a pixel: what it meets, front to back; and whether it is the way it does.
+// One way in which a lens point may see a pixel: the samples met, front to back, and whether this is the way without
+// rounding.
 struct Way {
     std::vector<Met> met;
     bool is;
 };
 
-// All of which one is the way.
+// All ways; exactly one of them `is`.
 std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const Pixel &pixel);
 
 long double alpha_of(const Ldi &ldi, std::uint64_t sample);

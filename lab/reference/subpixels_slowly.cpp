@@ -12,14 +12,15 @@ using Visit = std::function<void(int x, int y, double share)>;
 
 bool is_there(const Image &fine, int x, int y) { return fine.windows.data.intersects(Imath::V2i(x, y)); }
 
-// Whether a sub-pixel lies in the smallest box around the data window and the display window: beyond it, nobody knows what it shows.
+// Whether a sub-pixel is in the smallest box around the data window and the display window; outside, its colour is
+// unknown.
 bool is_known(const Image &fine, int x, int y) {
     Imath::Box2i box = fine.windows.data;
     box.extendBy(fine.windows.display);
     return box.intersects(Imath::V2i(x, y));
 }
 
-// All sub-pixels that a pixel shows and that are known.
+// Visits all known sub-pixels of a pixel, with their shares.
 void for_each_known(const Image &fine, const Subpixels &by, int x, int y, const Visit &visit) {
     const std::vector<double> shares = subpixel_shares(by);
     const Imath::Box2i under = subpixels_under({{x, y}, {x, y}}, by);

@@ -1,4 +1,4 @@
-// mean_of_subpixels(), pixel by pixel and sub-pixel by sub-pixel.
+// As mean_of_subpixels(), pixel by pixel and sub-pixel by sub-pixel.
 #pragma once
 
 #include "base/subpixels.h"

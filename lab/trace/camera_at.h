@@ -1,4 +1,4 @@
-// The cameras of views that are rendered from points of the lens.
+// The cameras of views from points of the lens.
 #pragma once
 
 #include "base/image.h"

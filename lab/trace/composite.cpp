@@ -10,12 +10,12 @@ namespace {
 
 struct Gathered {
     Imath::V3d colour{0, 0, 0}; // double: weights multiply over many layers
-    double passes = 1;          // share of light that what comes next still contributes
+    double passes = 1;          // share of light that the next layers still contribute
 };
 
 Imath::V3d as_vector(const Imath::C3f &c) { return {c.x, c.y, c.z}; }
 
-// The slabs from z on up to z_to, piece by piece between the planes where one begins or ends.
+// Crosses the slabs from z to z_to, piece by piece between the planes where one begins or ends.
 void cross_slabs(std::span<const Slab> slabs, double z, double z_to, Gathered &g) {
     while (z < z_to) {
         double next = z_to, density = 0;

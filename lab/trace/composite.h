@@ -1,4 +1,4 @@
-// What a ray collects from front to back: surfaces of partial coverage and the slabs between them.
+// Composites what a ray meets, front to back: surfaces of partial coverage and the slabs between them.
 #pragma once
 
 #include "lab/trace/scene.h"

@@ -21,7 +21,7 @@ Ldi empty_ldi(const RenderSettings &settings) {
     return ldi;
 }
 
-// Premultiplied colour and alpha as the last sample of the last pixel.
+// Appends premultiplied colour and alpha as the last sample of the last pixel.
 void append(Ldi &ldi, bool volumes, double z, double z_back, const Imath::V4d &rgba) {
     ldi.z.push_back(float(z));
     if (volumes) ldi.z_back.push_back(float(z_back));
@@ -42,7 +42,7 @@ Imath::V4d premultiplied(const Imath::C4f &surface) {
     return double(surface.a) * Imath::V4d(surface.r, surface.g, surface.b, 1);
 }
 
-// The rays of one pixel: everything along the one through its centre, and along each sample.
+// The rays of one pixel: everything along the ray through its centre, and along each sample's ray.
 class PixelRays {
 public:
     PixelRays(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u,
@@ -103,7 +103,7 @@ void peel(const PixelRays &rays, std::size_t layers, bool volumes, Ldi &out) {
     }
 }
 
-// What the samples of a pixel see of a surface.
+// The part of a surface that the samples of a pixel see.
 struct Visible {
     int primitive; // -1: the sky
     Imath::V4d sum{0};
@@ -133,7 +133,7 @@ void see(const PixelRays &rays, bool volumes, Ldi &out) {
         add_visible(buffers, found);
     }
     std::ranges::sort(found, {}, &Visible::z);
-    double left = double(rays.count()); // samples that what is nearer does not cover
+    double left = double(rays.count()); // samples that nearer surfaces do not cover
     for (const Visible &surface : found) {
         const double coverage = std::min(1.0, surface.sum[3] / left);
         append(out, volumes, surface.z(), surface.z(), coverage / surface.sum[3] * surface.sum);
@@ -147,7 +147,7 @@ struct Stratum {
     double z = -1; // -1: nothing met yet
 };
 
-// What a ray meets in each stratum, the rest taken away.
+// Keeps only the layers that a ray meets in each stratum.
 void add_strata(std::span<const Layer> layers, double nearest, std::vector<Stratum> &strata) {
     const double count = double(strata.size());
     const auto stratum_of = [&](const Layer &layer) {
@@ -166,7 +166,7 @@ void cut(const PixelRays &rays, std::size_t count, double nearest, bool volumes,
     LayerBuffers buffers;
     std::vector<Stratum> strata(count);
     rays.centre(buffers);
-    add_strata(buffers.layers, nearest, strata); // for its depths
+    add_strata(buffers.layers, nearest, strata); // only for its depths
     for (Stratum &stratum : strata) stratum.sum = Imath::V4d(0);
     for (std::size_t i = 0; i < rays.count(); ++i) {
         rays.sample(i, buffers);
@@ -177,7 +177,7 @@ void cut(const PixelRays &rays, std::size_t count, double nearest, bool volumes,
             append(out, volumes, stratum.z, stratum.z, stratum.sum / double(rays.count()));
 }
 
-// Depth of the nearest surface that the centre sees at a pixel centre; anything where it sees but sky.
+// Depth of the nearest surface at a pixel centre, seen from the lens centre; arbitrary if only sky is visible.
 double nearest_depth(const Tracer &tracer, const RenderSettings &settings) {
     double nearest = infinity;
     for (std::size_t pixel = 0; pixel < settings.windows.pixels(); ++pixel) {

@@ -1,4 +1,4 @@
-// Embree 3 and 4: the queries of the tracer, which the two take in different ways. CMake says which one is there.
+// The tracer's queries for Embree 3 and 4, which have different interfaces. CMake says which version is installed.
 #pragma once
 
 #if SPARSELENS_EMBREE == 3
@@ -29,7 +29,7 @@ inline void find_occluded(const int *valid, RTCScene scene, RTCRay16 &rays) {
     rtcOccluded16(valid, scene, &context, &rays);
 }
 
-// `filter` sees each hit, and finds `context`, which the caller has initialised, in its arguments.
+// Calls `filter` for each hit, with `context` in its arguments, which the caller has initialised.
 inline void intersect_filtered(RTCScene scene, QueryContext &context, RTCFilterFunctionN filter,
                                RTCRayHit &ray) {
     context.filter = filter;
@@ -54,7 +54,7 @@ inline void find_occluded(const int *valid, RTCScene scene, RTCRay16 &rays) {
     rtcOccluded16(valid, scene, &rays);
 }
 
-// `filter` sees each hit, and finds `context`, which the caller has initialised, in its arguments.
+// Calls `filter` for each hit, with `context` in its arguments, which the caller has initialised.
 inline void intersect_filtered(RTCScene scene, QueryContext &context, RTCFilterFunctionN filter,
                                RTCRayHit &ray) {
     RTCIntersectArguments arguments;

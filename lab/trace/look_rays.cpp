@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t batch_size = 64;
 
-// Sums of one pixel: R, G, B, A.
+// The sums of one pixel: R, G, B, A.
 struct PixelSums {
     std::array<double, 4> light{}, weight{};
 };
 
-// Rays of one pixel, and what they see.
+// The rays of one pixel, and what they see.
 struct Batch {
     std::array<Imath::V2d, batch_size> in_pixel, on_lens, on_light{};
     std::array<LensPoint, batch_size> points;
@@ -52,7 +52,7 @@ public:
             for (std::size_t colour = 0; colour < 3; ++colour) {
                 trace(batch, colour, n);
                 add(sums, batch, colour, n);
-                if (colour == 1) add(sums, batch, 3, n); // coverage goes with green
+                if (colour == 1) add(sums, batch, 3, n); // coverage is taken from green
             }
         }
         return sums;
@@ -97,7 +97,7 @@ private:
                 weight *= double(1 / batch.depth[i] < batch.inverse_focus[i] ? point.behind : point.in_front);
             if (batch.passes[i]) sums.light[channel] += weight * of(batch.radiance[i], channel);
             if (channel < 3 && darkens)
-                sums.weight[channel] += 1; // of the mean over the whole lens, dark where it is cut off
+                sums.weight[channel] += 1; // mean over the whole lens: dark where the cat-eye cuts it off
             else if (batch.passes[i])
                 sums.weight[channel] += weight;
         }

@@ -20,8 +20,8 @@ Camera macro_camera() {
     return camera;
 }
 
-// Bumps that stand out of the head, spread evenly over the half that faces the camera by the golden angle; up to a half
-// of each stands out.
+// Bumps on the head, spread evenly by the golden angle over the half that faces the camera. At most half of each stands
+// out.
 void add_bumps(Scene &scene, const Sphere &head, int count) {
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
@@ -32,8 +32,8 @@ void add_bumps(Scene &scene, const Sphere &head, int count) {
     }
 }
 
-// A blunt cone between two spheres, whose axis points at the middle of the lens: its side is steep, and the middle of
-// the lens sees all of it if `base` is wider than the view from there of `tip`.
+// A blunt cone between two spheres with its axis towards the middle of the lens. Its side is steep, and the middle of
+// the lens sees all of it if `base` looks wider than `tip` from there.
 void add_horn(Scene &scene, const Imath::V2d &slope, double tip_z, double tip, double base_z, double base) {
     constexpr int count = 60;
     for (int i = 0; i <= count; ++i) {
@@ -42,7 +42,7 @@ void add_horn(Scene &scene, const Imath::V2d &slope, double tip_z, double tip, d
     }
 }
 
-// Trapezia around an upright axis, in a spiral by the golden angle: each leans outwards, over those above it.
+// Trapezia around an upright axis, in a spiral by the golden angle. Each leans outwards over those above it.
 void add_scales(Scene &scene, const Imath::V3d &middle, double half_height, double widest, int count) {
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ void add_scales(Scene &scene, const Imath::V3d &middle, double half_height, doub
     }
 }
 
-// Within the picture, seen from the middle of the lens.
+// Lamps inside the picture, as seen from the middle of the lens.
 void add_lamps(Scene &scene, int count) {
     for (int i = 0; i < count; ++i) {
         const double z = 4 + 3 * hash(i, 3, 6);

@@ -15,8 +15,8 @@ Paint stripes(const Imath::V3d &position);
 Paint dark(const Imath::V3d &position);
 Paint lamp(const Imath::V3d &position); // radiance (60, 48, 30)
 
-// For the scene "slant": tiles that look equally large from the origin wherever they lie, so that the detail stays the
-// same while the blur changes, and none is finer than a pixel.
+// For the scene "slant": tiles that have the same apparent size from the origin wherever they are, so that the detail
+// stays the same while the blur changes, and no tile is finer than a pixel.
 Paint even_tiles(const Imath::V3d &position);
 
 // For the scene "lamps": radiance 1000; radiance (0.02, 0.02, 0.025).
@@ -29,10 +29,10 @@ Paint chrome(const Imath::V3d &position);
 // For the scenes of mirrors and glass. Glass is `glass_thickness` thick and refracts by `refractive_index`.
 inline constexpr double glass_thickness = 3, refractive_index = 1.5;
 Paint silver(const Imath::V3d &position);       // a perfect mirror
-Paint brushed(const Imath::V3d &position);      // a rough one
+Paint brushed(const Imath::V3d &position);      // a rough mirror
 Paint clear_glass(const Imath::V3d &position);  // lets all light through
 Paint glossy_tiles(const Imath::V3d &position); // floor_tiles under a varnish
-Paint mosaic(const Imath::V3d &position);       // tiles of many sizes and colours, none like the next
+Paint mosaic(const Imath::V3d &position);       // tiles of many sizes and colours, all different
 
 // For the scene "mist": all materials emit; the sheets have partial coverage.
 Paint near_sheet(const Imath::V3d &position);

@@ -6,8 +6,9 @@ namespace sparselens::lab {
 
 namespace {
 
-// The default picture spans slopes of +-0.5 by +-0.28, 640 pixels each: 100 radians per slope are 40 pixels a
-// period. In front of focus on the left, in focus in the middle, behind it on the right and all over.
+// The default picture spans slopes of +-0.5 by +-0.28, 640 pixels per unit of slope: 100 radians per slope are 40
+// pixels per period. The planes are in front of focus on the left, in focus in the middle, behind it on the right, and
+// behind it over the whole picture.
 const std::array<FacingPlane, 4> planes = {{
     {2.5,
      {{-0.9, -0.9}, {-0.2, 0.9}},

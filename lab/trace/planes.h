@@ -25,7 +25,7 @@ struct FacingPlane {
     std::array<PlaneWave, 3> radiance; // of R, G and B; the plane emits
 };
 
-// The nearest first; the last one fills more than the picture.
+// Sorted nearest first; the last one fills more than the picture.
 std::span<const FacingPlane> facing_planes();
 
 double radiance(const PlaneWave &wave, const Imath::V2d &slope);

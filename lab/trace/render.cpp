@@ -28,14 +28,13 @@ Imath::V2d direction_through(const RenderSettings &settings, const Imath::V2d &p
 // Consecutive samples of one pixel.
 struct Run {
     int x, y;            // the pixel
-    std::uint32_t first; // index of the first of them
+    std::uint32_t first; // index of the first sample
     std::span<Ray> rays;
     std::span<Imath::V2d> light_points;
 };
 
 // Mean of `samples` rays in the pixels of row y at these columns, counted from the data window. make(Run) fills the
-// rays; they are traced in batches that run on from pixel to pixel, so that few samples a pixel fill them as well as
-// many.
+// rays. Batches continue from pixel to pixel, so that a few samples per pixel fill them as well as many.
 template <typename Make>
 void render_row(const Tracer &tracer, Light light, Image &image, int y, std::span<const int> columns,
                 std::size_t samples, const Make &make) {

@@ -21,10 +21,10 @@ struct RenderSettings {
     Light light = Light::sun;
     double dolly = 0;              // how far the camera has moved along z, scene units
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
-    std::uint32_t stream = 0;      // of the reference, below 2^26: streams share no noise, either
+    std::uint32_t stream = 0;      // of the reference, below 2^26: different streams share no noise
     LensLooks looks = {};          // of the reference
-    HighlightGain highlights = {}; // of the light that its rays bring
-    bool scattered = false; // views: no grids in the pixels, so that the average of many views is antialiased
+    HighlightGain highlights = {}; // gain for the light of its rays
+    bool scattered = false;        // views: no grids in pixels, so that the mean of many views is antialiased
 };
 
 // The stream of random numbers for `stream` (below 2^26) with these settings.
@@ -38,15 +38,16 @@ Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V
 // The ray from lens point `u` to the point of the focus plane that is seen at p through the centre of the lens.
 Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
 
-// What a pinhole at lens point `u` sees: R G B A (half, box filter of one pixel) and Z (float, at the pixel centre).
-// With samples = n * n, not scattered, there is a regular n x n grid in each pixel; else the points have low
+// The picture through a pinhole at lens point `u`: R G B A (half, box filter of one pixel) and Z (float, at the pixel
+// centre). With samples = n * n, not scattered, each pixel has a regular n x n grid; else the points have low
 // discrepancy. `stream` distinguishes views, so that their noise is independent. `asked` holds one value per pixel of
 // the data window: pixels of value 0 are not rendered and stay empty. If `asked` is empty, all pixels are rendered.
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
                   std::uint32_t stream, Progress &progress, std::span<const std::uint8_t> asked = {});
 
 // Distributed ray tracing (R. Cook, T. Porter, L. Carpenter, 1984): `samples` rays per pixel, each from its own point
-// of the lens through its own point of the pixel. R G B A, with a box filter of one pixel. Its looks are settings.looks.
+// of the lens through its own point of the pixel. R G B A, with a box filter of one pixel. The lens has the looks of
+// settings.looks.
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress);
 
 } // namespace sparselens::lab

@@ -46,9 +46,9 @@ std::uint32_t reverse_bits(std::uint32_t x) {
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-// A permutation in which a bit depends on the bits below it and on the seed alone: on reversed numbers that is
-// Owen's nested scrambling (S. Laine and T. Karras, "Stratified sampling for stochastic transparency", 2011;
-// B. Burley, "Practical hash-based Owen scrambling", 2020), with the better mixing constants of N. Vegdahl.
+// A permutation in which each bit depends only on the bits below it and on the seed: on reversed numbers this is Owen's
+// nested scrambling (S. Laine and T. Karras, "Stratified sampling for stochastic transparency", 2011; B. Burley,
+// "Practical hash-based Owen scrambling", 2020), with the better mixing constants of N. Vegdahl.
 std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -58,7 +58,7 @@ std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-// Which pair of coordinates decides what. The lens has the best pair: it is what blurs most.
+// The use of each pair of coordinates. The lens has the best pair, because it blurs most.
 enum Dimension : std::size_t { lens_pair = 0, pixel_pair = 2, light_pair = 4 };
 
 std::vector<Imath::V2d> regular_grid(int samples) {

@@ -29,8 +29,8 @@ private:
     std::array<std::vector<std::uint32_t>, dimensions> reversed_; // lowest bit first
 };
 
-// The samples of a picture: the position of each one in its pixel, on the lens and on the light. They are three pairs
-// of coordinates of one Sobol point, all in the unit square.
+// The samples of a picture: the position of each sample in its pixel, on the lens and on the light. They are three
+// pairs of coordinates of one Sobol point, all in the unit square.
 class PixelSamples {
 public:
     // If `regular` and count = n * n, the positions in the pixel are an n x n grid, the same in every pixel.
@@ -39,7 +39,7 @@ public:
 
     int count() const { return int(points_.count()); }
 
-    // The numbers of samples [first, first + out.size()) of pixel (x, y).
+    // The positions of samples [first, first + out.size()) in pixel (x, y).
     void in_pixel(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_lens(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_light(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
@@ -48,7 +48,7 @@ private:
     void pairs(std::size_t dimension, int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
 
     SobolPoints points_;
-    std::vector<Imath::V2d> grid_; // empty if not regular
+    std::vector<Imath::V2d> grid_; // empty if not `regular`
     std::uint32_t stream_;
 };
 

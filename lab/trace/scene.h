@@ -12,16 +12,15 @@
 
 namespace sparselens::lab {
 
-// A material at one of its points.
+// The material at one of its points.
 struct Paint {
     Imath::C3f colour;  // albedo, [0, 1], or radiance if it emits; not premultiplied
-    float coverage = 1; // the share of the background that it hides, [0, 1]
-    bool emits = false; // independent of the sun and the light
-    float mirror = 0;   // share of a mirror, or of glass, in place of the colour, [0, 1]
-    float rough =
-        0; // how far the mirror scatters: the tangent of the largest angle to the perfect reflection
+    float coverage = 1; // share of the background that it hides, [0, 1]
+    bool emits = false; // radiance that does not depend on the sun and the light
+    float mirror = 0;   // share of a mirror, or of glass, instead of the colour, [0, 1]
+    float rough = 0;    // scatter of the mirror: the tangent of the largest angle to the perfect reflection
     float glass =
-        0; // above 0: not a mirror but a plane-parallel slab of glass, so many units thick, behind the surface
+        0; // above 0: not a mirror but a plane-parallel slab of glass of this thickness behind the surface
 };
 
 using Material = Paint (*)(const Imath::V3d &position);
@@ -31,16 +30,16 @@ struct Quad {
     Material material;
 };
 
-// Visible from wherever a ray starts: from outside the nearer side, from inside the farther one.
+// Visible from both sides: a ray from outside meets the nearer side, one from inside the farther side.
 struct Sphere {
     Imath::V3d centre;
     double radius;
     Material material;
 };
 
-// A homogeneous volume between two planes that face the camera. A ray that crosses it from z0 to z1 loses
-// 1 - exp(-density (z1 - z0)) of the light from behind, whatever its slant: optical depth is proportional to planar
-// depth, so that one deep sample with Z and ZBack describes the slab exactly for every lens point.
+// A homogeneous volume between two planes that face the camera. A ray that crosses it from z0 to z1 loses 1 -
+// exp(-density (z1 - z0)) of the light from behind, whatever its slant: optical depth is proportional to planar depth,
+// so one deep sample with Z and ZBack describes the slab exactly for every lens point.
 struct Slab {
     double z_front, z_back;
     double density;    // optical depth per scene unit of planar z
@@ -54,7 +53,7 @@ struct Scene {
     bool mirrors = false;     // some material reflects, so every hit is checked
     bool translucent = false; // there are slabs, or coverage below 1: rays composite every hit
     Imath::C3f sky{0, 0, 0};  // radiance of rays without a hit; z = inf
-    float sky_coverage = 1;   // their alpha: 1, or 0 where there is no sky
+    float sky_coverage = 1;   // their alpha: 1, or 0 if there is no sky
     Camera camera;            // the default lens: focal length, sensor width, f-number, focus, scene unit
 };
 

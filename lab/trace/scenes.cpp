@@ -15,7 +15,7 @@ namespace sparselens::lab {
 
 namespace {
 
-// 36 mm lens on a 36 mm film back: the picture spans x / z from -1/2 to 1/2.
+// A lens of 36 mm and a film back 36 mm wide: the picture spans x / z from -1/2 to 1/2.
 Camera default_camera(double lens_radius, double focus_distance) {
     Camera camera;
     camera.focal_length_mm = 36;
@@ -26,7 +26,7 @@ Camera default_camera(double lens_radius, double focus_distance) {
     return camera;
 }
 
-// The stage that fence and grass share.
+// The floor and wall of fence and grass.
 Scene floor_and_wall() {
     Scene scene;
     scene.sky = {0.3f, 0.4f, 0.6f};
@@ -65,7 +65,7 @@ Scene grass() {
     return scene;
 }
 
-// A rectangle at depth z that faces the camera and covers these slopes x / z, y / z.
+// A rectangle at depth z that faces the camera and spans these slopes x / z, y / z.
 Quad facing(double z, double left, double bottom, double right, double top, Material material) {
     const double x0 = z * left, x1 = z * right, y0 = z * bottom, y1 = z * top;
     return {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}}, material};
@@ -83,9 +83,9 @@ Scene slant() {
     return scene;
 }
 
-// Square lamps that face the camera, 2 x 2 pixels of the default picture on whole pixels, at depths where R F / z
-// is whole too: there the centre view and the rim views at 0, 90, 180 and 270 degrees hold each lamp's energy
-// exactly, and the rest is the gather's doing.
+// Square lamps that face the camera, 2 x 2 pixels of the default picture on whole pixels, at depths where R F / z is
+// whole too. There the centre view and the rim views at 0, 90, 180 and 270 degrees hold each lamp's energy exactly, and
+// any error is the gather's.
 Scene lamps() {
     Scene scene;
     scene.camera = default_camera(0.12, 5);
@@ -112,8 +112,8 @@ Scene mist() {
     return scene;
 }
 
-// Chrome balls and an upright mirror among the spheres of "fence": in and out of focus, what they show depends on
-// where the camera stands, and its sharpness on how far the light came in all.
+// Chrome balls and an upright mirror among the spheres of "fence", in and out of focus. Their reflections depend on the
+// camera's position, and the sharpness on the total length of the light's path.
 Scene mirror() {
     Scene scene = floor_and_wall();
     scene.mirrors = true;
@@ -125,8 +125,8 @@ Scene mirror() {
     return scene;
 }
 
-// A room for mirrors and glass: walls and a floor behind the camera too, and a lens wide enough that what they show moves
-// by several pixels.
+// A room for mirrors and glass: walls and a floor behind the camera too, and a lens so wide that reflections move by
+// several pixels.
 Scene room() {
     Scene scene;
     scene.mirrors = true;
@@ -138,7 +138,7 @@ Scene room() {
     return scene;
 }
 
-// The image of a point lies at its mirror image: planar depth 8 - z.
+// The image of a point is its reflection in the plane: planar depth 8 - z.
 Scene plane_mirror_of(Material material) {
     Scene scene = room();
     scene.quads.push_back(facing(4, -0.4, -0.2, 0.35, 0.22, material));
@@ -148,8 +148,8 @@ Scene plane_mirror_of(Material material) {
 Scene plane_mirror() { return plane_mirror_of(silver); }
 Scene brushed_mirror() { return plane_mirror_of(brushed); }
 
-// The image of what lies behind it is nearer than that by glass_thickness (1 - 1 / refractive_index), where rays are
-// upright on the glass.
+// The image of a point behind the glass is nearer than the point by glass_thickness (1 - 1 / refractive_index), for
+// rays perpendicular to the glass.
 Scene glass_slab() {
     Scene scene = room();
     scene.quads.push_back(facing(3, -0.35, -0.14, 0.3, 0.2, clear_glass));
@@ -158,8 +158,8 @@ Scene glass_slab() {
     return scene;
 }
 
-// A convex ball before a concave wall: a sphere around the scene and the camera, in which what is nearer than half its
-// radius has its image behind the wall, and what is farther has it behind the camera.
+// A convex ball before a concave wall: a sphere around the scene and the camera. The wall shows points nearer than half
+// its radius behind it, and farther points behind the camera.
 Scene curved_mirrors() {
     Scene scene = room();
     scene.quads.resize(1);
@@ -178,7 +178,7 @@ Scene glossy_floor() {
     return scene;
 }
 
-// Objects at five depths, some in front of others, and nothing behind them: what a compositor gets as an element.
+// Objects at five depths, some in front of others, and nothing behind them: an element for a compositor.
 Scene element() {
     Scene scene;
     scene.sky_coverage = 0;
@@ -194,7 +194,7 @@ Scene element() {
     return scene;
 }
 
-// What stands among and behind the objects of "element": a plate to put it into.
+// Objects among and behind those of "element": the plate for it.
 Scene plate() {
     Scene scene = floor_and_wall();
     scene.spheres = {{{0.9, -0.5, 3.6}, 0.45, dots}, {{-0.55, -0.35, 6.5}, 0.6, stripes}};

@@ -16,10 +16,10 @@ struct SceneEntry {
 
 std::span<const SceneEntry> scene_table();
 
-// Throws Error where no scene has that name.
+// Throws Error if no scene has that name.
 Scene build_scene(std::string_view name);
 
-// The same for a camera that has moved so far along z: depths of slabs are counted from it.
+// The scene for a camera that has moved by `dolly` along z; the depths of slabs are counted from the camera.
 Scene seen_after(Scene scene, double dolly);
 
 } // namespace sparselens::lab

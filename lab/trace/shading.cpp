@@ -13,18 +13,18 @@ namespace sparselens::lab {
 
 namespace {
 
-constexpr std::size_t run_size = 64; // hits shaded at a time: stays in the first cache
+constexpr std::size_t run_size = 64; // hits shaded at a time: they fit into the first-level cache
 
 const Imath::V3d to_sun = Imath::V3d(0.4, 0.8, -0.5).normalized();
 
-// The square light stands where the sun does, seen from the middle of the scenes, and faces them. It is so large
-// that one point of it tells little, and as bright as makes its pictures about as bright as the sun's.
+// The square light is at the sun's position as seen from the middle of the scenes, and faces them. It is so large that
+// one random point of it tells little, and so bright that its pictures are about as bright as the sun's.
 constexpr double light_distance = 12, light_side = 24, light_gain = 1.5;
 const Imath::V3d light_centre = Imath::V3d(0, 0, 6) + light_distance * to_sun;
 const Imath::V3d light_x = light_side * (to_sun % Imath::V3d(0, 0, 1)).normalized();
 const Imath::V3d light_y = to_sun % light_x;
 
-// `irradiance`: 1 where the sun stands upright over the surface.
+// `irradiance`: 1 if the sun is perpendicular to the surface.
 Imath::C4f lit(const Paint &paint, double irradiance) {
     const float light = paint.emits ? 1.f : float(0.9 * irradiance + 0.15);
     return {paint.colour.x * light, paint.colour.y * light, paint.colour.z * light, paint.coverage};
@@ -59,7 +59,7 @@ void shade_by_normal(const Tracer &tracer, std::span<const Hit> hits, std::span<
     }
 }
 
-// From just off the surface, on the side of the light, to the light's point at t = 1.
+// From just above the surface, on the side of the light, to the light's point at t = 1.
 Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
     const Imath::V3d target =
         light_centre + (light_point.x - 0.5) * light_x + (light_point.y - 0.5) * light_y;
@@ -69,8 +69,8 @@ Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
     return {origin, target - origin};
 }
 
-// What the light's point at the end of a shadow ray brings, were it the whole light: it weakens with slant and with
-// the square of distance.
+// Irradiance from the light's point at the end of a shadow ray, as if it were the whole light: it falls with slant and
+// with the square of distance.
 double irradiance(const Hit &hit, const Ray &shadow) {
     const double distance2 = shadow.direction.length2(), distance = std::sqrt(distance2);
     const double at_surface = std::abs(hit.normal ^ shadow.direction) / distance;
@@ -115,7 +115,7 @@ void shade_surfaces(const Tracer &tracer, Light light, std::span<const Hit> hits
     }
 }
 
-// Scattered evenly, by the point of the unit square, over a disc around the direction.
+// A direction that `point` of the unit square scatters evenly over a disc around `direction`.
 Imath::V3d scattered(const Imath::V3d &direction, double rough, const Imath::V2d &point) {
     if (rough <= 0) return direction;
     const Imath::V3d axis = direction.normalized();
@@ -125,12 +125,12 @@ Imath::V3d scattered(const Imath::V3d &direction, double rough, const Imath::V2d
     return axis + radius * (std::cos(angle) * x + std::sin(angle) * y);
 }
 
-// What leaves a slab of glass is parallel to what came in (Snell's law, twice).
+// A ray that leaves a slab of glass is parallel to the one that enters it (Snell's law, twice).
 Ray through_glass(const Hit &hit, const Imath::V3d &in, double thickness) {
     const Imath::V3d axis = in.normalized();
     const Imath::V3d inward = ((axis ^ hit.normal) < 0 ? -1.0 : 1.0) * hit.normal;
     const Imath::V3d along =
-        (axis - (axis ^ inward) * inward) / refractive_index; // of the surface, sine of the angle
+        (axis - (axis ^ inward) * inward) / refractive_index; // along the surface; length: sine of the angle
     const double cosine = std::sqrt(1 - along.length2());
     const Imath::V3d leaves = hit.position + thickness * (inward + along / cosine);
     return {leaves + 1e-5 * (1 + leaves.length()) * in, in};
@@ -162,7 +162,7 @@ void add_bounces(const Tracer &tracer, Light light, std::span<const Ray> rays, s
     }
 }
 
-// Every hit counts: surfaces cover in part, and slabs lie between them.
+// Every hit counts, because surfaces may be partial, and slabs may be between them.
 void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
                    std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
     LayerBuffers buffers;

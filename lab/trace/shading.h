@@ -1,4 +1,4 @@
-// The appearance of what camera rays hit, and the light that a ray returns.
+// The appearance of surfaces that camera rays hit, and the light that a ray returns.
 #pragma once
 
 #include "lab/trace/composite.h"
@@ -7,14 +7,14 @@
 namespace sparselens::lab {
 
 // sun: albedo (0.9 |n . l| + 0.15), without shadows. area: the first term comes from a square light and is estimated by
-// one random point of the light and a shadow ray to it, which gives soft shadows and the noise of a path tracer.
-// What denoisers ask for beside the picture, by the same rays, mirrors and layers: albedo, the colour of what is there, at most
-// 1; normal, X, Y and Z of its normal in place of R, G and B, 0 for the sky.
+// one random point of the light and a shadow ray to it, which gives soft shadows and the noise of a path tracer. albedo
+// and normal are a denoiser's inputs, by the same rays, mirrors and layers: albedo, the surface's colour, at most 1;
+// normal, X, Y and Z as R, G and B, 0 for the sky.
 enum class Light { sun, area, albedo, normal };
 
-// The colour (not premultiplied) and coverage of what each ray hits; mirrors and glass show what one bounce meets, or the
-// ray that leaves the glass. `light_points` are one per hit, spread evenly over the unit square: of the light, and of
-// where rough mirrors reflect to.
+// The colour (not premultiplied) and coverage of each ray's hit. Mirrors and glass show what one bounce meets, or the
+// ray that leaves the glass. `light_points`: one per hit, spread evenly over the unit square, for the point on the
+// light and for the direction of rough reflections.
 void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 
@@ -34,8 +34,8 @@ struct LayerBuffers {
 void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath::V2d &light_point,
                   LayerBuffers &buffers);
 
-// The single depth of a ray in a scene of partial coverage: that at which surfaces have covered half of the background.
-// Slabs have no single depth and do not count.
+// The single depth of a ray in a scene of partial coverage: the depth at which surfaces have covered half of the
+// background. Slabs have no single depth and do not count.
 double visible_depth(const Tracer &tracer, const Ray &ray);
 
 } // namespace sparselens::lab

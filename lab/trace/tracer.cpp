@@ -22,7 +22,7 @@ struct Release {
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using EmbreeScene = std::unique_ptr<RTCSceneTy, Release>;
 
-// The plane of a quad, or the sphere: what the exact hit is solved from.
+// The plane of a quad, or the sphere, from which the exact hit is computed.
 struct Shape {
     Imath::V3d point;  // a corner; the centre
     Imath::V3d normal; // of the quad
@@ -35,7 +35,7 @@ Shape shape_of(const Quad &quad) {
     return {c[0], ((c[2] - c[0]) % (c[3] - c[1])).normalized(), 0, quad.material};
 }
 
-// The hit of a ray that is known to meet the shape; t = inf where only rounding made it so.
+// The hit of a ray that Embree says meets the shape; t = inf if that was only rounding.
 Hit solve(const Shape &shape, int primitive, const Ray &ray) {
     Hit hit;
     hit.primitive = primitive;
@@ -46,13 +46,13 @@ Hit solve(const Shape &shape, int primitive, const Ray &ray) {
         hit.normal = shape.normal;
         return hit;
     }
-    // From the point of the ray nearest to the centre: no difference of large squares.
+    // Solved from the point of the ray nearest to the centre, which avoids a difference of large squares.
     const double inverse_length2 = 1 / ray.direction.length2();
     const double t_middle = (to_shape ^ ray.direction) * inverse_length2;
     const double distance2 = (to_shape - t_middle * ray.direction).length2();
     const double half_chord2 = std::max(0.0, shape.radius * shape.radius - distance2);
     const double side =
-        to_shape.length2() < shape.radius * shape.radius ? -1 : 1; // of the start: inside, outside
+        to_shape.length2() < shape.radius * shape.radius ? -1 : 1; // if the ray starts inside: -1, outside: 1
     hit.t = t_middle - side * std::sqrt(half_chord2 * inverse_length2);
     hit.position = ray.origin + hit.t * ray.direction;
     hit.normal = (hit.position - shape.point) * (side / shape.radius);
@@ -89,7 +89,7 @@ void add_spheres(RTCDevice device, RTCScene scene, const std::vector<Sphere> &sp
     rtcReleaseGeometry(geometry);
 }
 
-// Lanes past the end of `rays` are switched off by `valid`.
+// `valid` disables lanes past the end of `rays`.
 template <typename RayN>
 void load(std::span<const Ray> rays, float reach, RayN &packet, int *valid) {
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -118,7 +118,7 @@ struct CollectContext {
     std::vector<Hit> *hits;
 };
 
-// Notes the hit and rejects it, so that the search goes on.
+// Records the hit and rejects it, so that the search continues.
 void collect(const RTCFilterFunctionNArguments *args) {
     auto &context = *reinterpret_cast<CollectContext *>(args->context);
     const unsigned geometry = RTCHitN_geomID(args->hit, args->N, 0);
@@ -218,7 +218,8 @@ void Tracer::all(const Ray &ray, std::vector<Hit> &hits) const {
         return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
     });
     std::erase_if(hits, [](const Hit &hit) { return !(hit.t > 0); });
-    // A sphere is met twice, front and back, and solved for its front both times; so is a quad on its diagonal.
+    // A sphere is met twice, front and back, and both hits are solved for its front; a quad is met twice on its
+    // diagonal.
     const auto same = [](const Hit &a, const Hit &b) { return a.primitive == b.primitive; };
     hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
 }

@@ -1,4 +1,4 @@
-// What a ray meets in a scene. Embree finds the primitive; the position on it is computed again in double from the
+// Finds what a ray meets in a scene. Embree finds the primitive; the position on it is then computed in double from the
 // primitive itself, so that positions and depths are exact up to rounding and do not depend on the instruction set.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Hit {
     double t = std::numeric_limits<double>::infinity();
     int primitive = -1; // quads first, then spheres, in the order of the scene; -1: the sky
     Imath::V3d position;
-    Imath::V3d normal; // of unit length; from a sphere towards where the ray starts, on either side of a quad
+    Imath::V3d normal; // of unit length; on a sphere or quad it points to the side of the ray's start
 
     bool sky() const { return primitive < 0; }
 };
@@ -38,7 +38,7 @@ public:
     // The nearest hit of each ray. Fastest for groups of 16 similar rays.
     void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
 
-    // Whether anything lies at t in (0, 1): for shadow rays that end at a light.
+    // Whether anything is at t in (0, 1): for shadow rays that end at a light.
     void blocked(std::span<const Ray> rays, std::span<bool> blocked) const;
 
     // Every hit, in order of t; replaces the contents of `hits`.

@@ -20,7 +20,7 @@ constexpr int largest_side = 65536, largest_count = 1 << 20, largest_seed = 63;
 constexpr double largest_dolly = 1e6;
 constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
 
-// The whole text as a number in [1, limit].
+// Parses the whole text as a number in [1, limit].
 bool read_count(std::string_view text, int limit, int &value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= limit;
@@ -62,7 +62,7 @@ CLI::Validator even() {
             ""};
 }
 
-// What is rendered: the scene, and which pictures of it.
+// Options for what is rendered: the scene, and which pictures of it.
 void add_picture_options(CLI::App &app, TraceOptions &options) {
     app.add_option("SCENE", options.scene, scene_help())
         ->required()
@@ -107,7 +107,7 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
         ->check(even());
 }
 
-// How it is rendered: the size, the light, the layers and the type of the channels.
+// Options for how it is rendered: the size, the light, the layers and the type of the channels.
 void add_rendering_options(CLI::App &app, TraceOptions &options) {
     const std::map<std::string, Light> lights{
         {"sun", Light::sun}, {"area", Light::area}, {"albedo", Light::albedo}, {"normal", Light::normal}};
@@ -215,7 +215,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.dolly = options.dolly;
     settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(camera, settings.windows);
-    settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too
+    settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // for a pinhole too
     settings.lens.focus = *camera.focus_distance;
     const LookValues looks = read_looks(options.looks, camera.fstop).values;
     settings.looks = resolve_looks(looks, camera, settings.lens, settings.windows);

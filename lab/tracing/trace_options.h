@@ -15,7 +15,7 @@ enum class DeepKind { visible, views, peel, strata };
 
 struct DeepRequest {
     DeepKind kind;
-    int layers; // of peel and strata
+    int layers; // for peel and strata
 };
 
 struct TraceOptions {
@@ -23,14 +23,14 @@ struct TraceOptions {
     std::string folder;
     std::string plan; // a plan to render instead of the centre view and the rim views
     int views = 4, lens_views = 0;
-    int samples = 16;    // per pixel of the picture, of each view
-    int supersample = 1; // pixels of views, across and down, in one of the picture
+    int samples = 16;    // of each view, per pixel of the picture
+    int supersample = 1; // pixels of views, across and down, per pixel of the picture
     int reference = 0;   // rays per pixel; 0: no reference
     int halves = 0;      // rays per pixel of both; 0: none
     int width = 640, height = 360;
     int overscan = 0; // pixels
     double dolly = 0; // scene units
-    int seed = 0;     // of the random numbers: pictures of different seeds share no noise
+    int seed = 0;     // of the random numbers: different seeds share no noise
     Light light = Light::sun;
     PixelType type = PixelType::half;
     std::vector<DeepRequest> deep;
@@ -38,17 +38,18 @@ struct TraceOptions {
     GivenLooks looks;
 };
 
-// Reads "WIDTHxHEIGHT" into options.width and height; false where the text is not of that form.
+// Reads "WIDTHxHEIGHT" into options.width and height; false if the text has another form.
 bool read_size(const std::string &text, TraceOptions &options);
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
 
-// The windows, the lens and the light of the picture, and those of the views; `camera` is that of the scene, changed by the options.
-// Throws UsageError where they are unreasonably large.
+// The windows, the lens and the light of the picture, and of the views; `camera` is the scene's camera, changed by the
+// options. Throws UsageError if they are unreasonably large.
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
 RenderSettings view_settings(const TraceOptions &options, const Camera &camera);
 
-// Per pixel of a view. Throws UsageError where a pixel of the picture has no such number for each of its sub-pixels.
+// Samples per pixel of a view. Throws UsageError if the samples of a picture's pixel cannot be divided among its
+// sub-pixels.
 int view_samples(const TraceOptions &options);
 
 } // namespace sparselens::lab

@@ -43,7 +43,7 @@ TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings set
                           lens.focus, lens.focal_px));
 }
 
-// The finer pixels are, the more of them are one of the picture.
+// Counts the pixels of this camera per pixel of the picture: finer pixels, more of them.
 Camera TraceOutputs::camera_of(const Windows &windows, const Imath::V2d &u) const {
     Camera camera = camera_at(camera_, settings_.windows, settings_.lens.radius * u);
     const int across = windows.display_width() / settings_.windows.display_width();

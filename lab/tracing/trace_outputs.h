@@ -16,18 +16,18 @@ namespace sparselens::lab {
 
 class TraceOutputs {
 public:
-    // `settings` are those of the picture; views may have finer pixels. Creates the folder; throws Error where that fails.
+    // `settings` are for the picture; views may have finer pixels. Creates the folder; throws Error if that fails.
     TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
                  const ToolContext &tool);
 
-    // Renders with `make`, writes DIR/name and records the time that rendering took. `u` is the lens point. The header says how many
-    // `rays` over the lens a pixel has, if it is a picture of such.
+    // Renders with `make`, writes DIR/name and records the rendering time. `u` is the lens point. For pictures over the
+    // lens, the header states the number of `rays` per pixel.
     void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make,
              std::optional<int> rays = {});
     void add_deep(const std::string &name, const Imath::V2d &u, const std::function<Ldi()> &make);
 
-    // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views, whose samples are
-    // counted per pixel of the picture, as are those of each half.
+    // Writes DIR/camera.json; an infinite number becomes null. `views` are the lens points of the rim views. The
+    // samples of the views and of each half are counted per pixel of the picture.
     void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int supersample,
                        int reference_samples, int half_samples) const;
 

@@ -13,7 +13,7 @@ namespace sparselens::lab {
 
 namespace {
 
-// Streams of random numbers; the reference has 0.
+// Streams of random numbers; the reference uses stream 0.
 enum Stream : std::uint32_t {
     of_centre = 1,
     of_deep = 0x1000000,
@@ -40,7 +40,7 @@ void add_reference(const TraceJob &job, const RenderSettings &settings, int rays
         name, {0, 0}, [&] { return render_reference(job.tracer, settings, rays, job.progress); }, rays);
 }
 
-// Views are averaged with equal weights: the looks of the aperture's shape show so, others do not.
+// Views are averaged with equal weights, so only looks that change the aperture's shape appear.
 std::vector<Imath::V2d> lens_view_points(const LensLooks &looks, int n) {
     const Aperture aperture(looks.aperture);
     const LensLooks shape_alone{.aperture = looks.aperture, .axis = looks.axis};

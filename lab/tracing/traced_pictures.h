@@ -13,15 +13,15 @@ namespace sparselens::lab {
 struct TraceJob {
     const TraceOptions &options;
     const Tracer &tracer;
-    const RenderSettings &settings; // of the picture: the reference, and views that are to be averaged
-    const RenderSettings &view;     // of the other views and deep pictures, whose pixels may be finer,
-    int view_samples;               // and which have so many samples in each
+    const RenderSettings &settings; // for the picture: the reference, and views that are averaged
+    const RenderSettings &view;     // for the other views and deep pictures, which may have finer pixels
+    int view_samples;               // per pixel of those
     TraceOutputs &outputs;
     Progress &progress;
 };
 
-// Renders the pixels that --plan asks for in each of its views, and returns their lens points. Throws Error where the
-// plan was made for a picture of another size.
+// Renders the pixels that --plan asks for in each of its views, and returns their lens points. Throws Error if the plan
+// was made for a picture of another size.
 std::vector<Imath::V2d> trace_plan(const TraceJob &job);
 
 // Renders the centre view and --views views from the rim of the lens, and returns the lens points of the latter.
@@ -33,7 +33,7 @@ void trace_lens(const TraceJob &job);
 // Renders the reference by distributed ray tracing, if --reference asks for it.
 void trace_reference(const TraceJob &job);
 
-// Renders two halves of --halves rays each as the reference is, without noise in common.
+// Renders two halves of --halves rays each in the same way as the reference, with independent noise.
 void trace_halves(const TraceJob &job);
 
 // Renders the deep picture of each --deep.
