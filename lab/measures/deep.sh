@@ -1,5 +1,5 @@
-# Deep files as renderers write them, of many samples a pixel (sparselens-deep-scene, of the benchmarks): CPU seconds, seconds by
-# the clock and peak MB, the best of three runs. 8 minutes.
+# Deep files as renderers write them, with many samples per pixel (sparselens-deep-scene, of the benchmarks): CPU
+# seconds, wall seconds and peak MB, the best of three runs. 8 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 
 echo "| file, step | CPU seconds | by the clock | peak MB |"

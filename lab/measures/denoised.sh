@@ -1,4 +1,4 @@
-# What Open Image Denoise makes of few rays over the lens, and of few samples of five views: lab/denoise on five scenes, 320x180.
+# Open Image Denoise on few rays over the lens, and on few samples of five views: lab/denoise on five scenes, 320x180.
 # 10 CPU minutes; needs PyPI.
 . "$(dirname "$0")/common.inc" "$1"
 echo "| scene, rays | ray tracing | denoised | by pinhole albedo and normals | five views | five views, denoised | both: `ldi-warp --denoised` |"

@@ -1,4 +1,4 @@
-# The same rays in views of once, twice and four times the size: dB at final quality, and what it costs. 15 minutes.
+# The same rays in views of once, twice and four times the size: dB at final quality, and the cost. 15 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 
 # row NAME REFERENCE PICTURE_SIZE ...: views of 1, 2 and 4 times the size, in folders NAME.N.

@@ -1,4 +1,4 @@
-# What hidden surfaces are worth: share/python/hidden.py on three scenes, and on yard where it is there. 15 minutes.
+# The worth of hidden surfaces: share/python/hidden.py on three scenes, and on yard if it is there. 15 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 scenes=(fence grass mist)
 [ ! -e "$shared/views/yard" ] || scenes+=("$shared/views/yard")

@@ -1,6 +1,6 @@
-# Each look of the lens on four scenes, gathered from five views of 16 samples at final quality, against 1024 rays through the
-# same lens; 8x8 pixels of lamps are one, as their rays are noisy. And what a look costs: CPU time of the gather at 1920x1080 in
-# multiples of the round lens's. 25 minutes, 3 where the truths are kept.
+# Each look of the lens on four scenes, gathered from five views of 16 samples at final quality, compared with 1024 rays
+# through the same lens. For lamps, 8x8 pixels are averaged to one, because their rays are noisy. Also the cost of each
+# look: CPU time of the gather at 1920x1080, relative to the round lens. 25 minutes; 3 if the references are kept.
 . "$(dirname "$0")/common.inc" "$1"
 lenses=$(cd "$(dirname "$0")/../../share/lenses" && pwd)
 scenes=(fence mist grass lamps)

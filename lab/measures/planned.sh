@@ -1,4 +1,5 @@
-# What ldi-plan saves: pictures of the pixels that it asks for, against those of whole views, at final quality. 4 minutes.
+# The savings by ldi-plan: pictures of the pixels that it asks for, compared with those of whole views, at final
+# quality. 4 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 echo "| scene | whole views, dB | planned | planned, rays as many as those of so many rim views |"
 echo "|---|---|---|---|"

@@ -1,8 +1,8 @@
-# dof-report's tables of three scenes, and of yard where it is there. 30 minutes.
+# dof-report's tables of three scenes, and of yard if it is there. 30 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 scenes=(fence grass lamps)
 if [ -e "$shared/views/yard" ]; then
-    ln -sfn "$shared/views/yard" yard # which the report names as it is asked for
+    ln -sfn "$shared/views/yard" yard # the report names a scene as given
     scenes+=(yard)
 fi
 echo '```'

@@ -1,6 +1,6 @@
-# What five views of 4 samples cost at the sizes that people work in, with a blur as wide in the picture at each: CPU seconds,
-# seconds by the clock and peak MB of one run each, beside oiiotool --flatten of the same LDI in the same run. $sizes may name
-# others. 8 minutes, and 3 to trace.
+# The cost of five views of 4 samples at common sizes, with blur of the same width relative to the picture: CPU seconds,
+# wall seconds and peak MB of one run each, beside oiiotool --flatten of the same LDI in the same run. $sizes may give
+# other sizes. 8 minutes, and 3 to trace.
 . "$(dirname "$0")/common.inc" "$1"
 
 runs=1

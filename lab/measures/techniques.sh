@@ -1,7 +1,7 @@
-# What each technique is worth: each switched off by itself, by an option or by one line of the code, and how many dB the picture
-# then gains (at final quality, from five views of 16 samples). Then the same at normal quality where views of the same rays are once,
-# twice and four times as large as a picture of 320x180: a step that brings less than 0.05 dB at a size is not needed there. An hour,
-# most of it for building.
+# The worth of each technique: each is switched off by itself, with an option or a change of one line of code, and the
+# table shows how many dB the picture then gains (at final quality, from five views of 16 samples). Then the same at
+# normal quality with views of the same rays at once, twice and four times the size of a picture of 320x180: a step that
+# brings less than 0.05 dB at a size is not needed there. An hour, most of it for building.
 . "$(dirname "$0")/common.inc" "$1"
 . "$(dirname "$0")/variants.inc"
 built_in=(fence grass mirror)
@@ -25,7 +25,7 @@ for scene in yard pelt; do
     scenes+=($scene)
 done
 
-figures() { # WARP_OPTIONS GATHER_OPTIONS: of each scene, one a line; of the fine ones, too
+figures() { # for each scene, also the fine ones, one line
     local scene quality
     for scene in "${scenes[@]}" "${fine[@]}"; do
         quality="--quality final"
@@ -41,7 +41,7 @@ cells() { # LABEL FIGURES ALL
     paste <(echo "$2") <(echo "${3-}") | awk -v label="$1" 'BEGIN { printf "| %s |", label }
         NF == 2 { printf " %+.2f |", $1 - $2 } NF == 1 { printf " %.2f |", $1 } END { print "" }'
 }
-# row LABEL FIGURES ALL: of both tables, the second of which is kept.
+# row LABEL FIGURES ALL: prints a row of the first table, and keeps a row of the second for later.
 row() {
     local count=${#scenes[@]}
     cells "$1" "$(head -n "$count" <<<"$2")" "$(head -n "$count" <<<"${3-}")"

@@ -1,4 +1,4 @@
-"""The Defocus node of Blender's compositor (bpy of PyPI) over the centre view of the folder at hand."""
+"""Runs the Defocus node of Blender's compositor (bpy from PyPI) on the centre view in the current folder."""
 import pathlib
 import time
 
@@ -64,7 +64,8 @@ def tried(what, depths, fstop, larger):
     return what, made, seconds
 
 
-# The f-stop that has our radius of the lens, in metres a scene unit, and some beside it: the node's own lens is not ours.
+# Tries the f-stop of our lens radius, in metres per scene unit, and some near it, because the node's lens differs from
+# ours.
 fstop = centre.camera["focal_mm"] / 2000 / centre.camera["lens_radius"]
 ways = [(f"Z, f/{fstop * by:.3g}", depth, fstop * by, 1) for by in (0.6, 0.75, 1, 1.4)]
 ways += [(f"radii x {by}", radii, 128, by) for by in (0.8, 1, 1.25, 1.6)]

@@ -1,4 +1,4 @@
-"""What programs are given that make depth of field of a centre view and its depths, and what is kept of what they make."""
+"""The input for programs that make depth of field of a centre view and its depths, and the record of their results."""
 import json
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import OpenEXR
 
 
 class Centre:
-    """The centre view of the folder at hand."""
+    """The centre view in the current folder."""
 
     def __init__(self):
         self.camera = json.loads(pathlib.Path("camera.json").read_text())
@@ -21,7 +21,7 @@ class Centre:
         self.height, self.width = depth.shape
 
     def radii(self):
-        """Of circles of confusion, in pixels, positive before the focus."""
+        """Radii of circles of confusion, in pixels, positive before the focus."""
         camera = self.camera
         focal_pixels = self.width * camera["focal_mm"] / camera["sensor_width_mm"]
         return (camera["lens_radius"] * focal_pixels * (1 / self.z - 1 / camera["focus_distance"])).astype(numpy.float32)
@@ -39,7 +39,8 @@ def quality(path):
 
 
 def keep_best(name, tries):
-    """Of (what was asked, picture, seconds), the picture that is nearest to the reference becomes a row: by_NAME.exr."""
+    """Of the tries (what was asked, picture, seconds), keeps the picture nearest to the reference as a row:
+    by_NAME.exr."""
     best = None
     for asked, rgb, seconds in tries:
         write("try.exr", rgb)

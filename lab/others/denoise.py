@@ -1,7 +1,9 @@
-"""Open Image Denoise over the pictures of a folder: reads `jobs`, a line for each picture: PICTURE ALBEDO NORMAL KIND.
+"""Runs Open Image Denoise on the pictures of a folder: reads `jobs`, one line for each picture: PICTURE ALBEDO NORMAL
+KIND.
 
-KIND says what albedo and normals are: clean (without noise), noisy (of the same rays), pinhole (of other rays: the result is named
-PICTURE.pinhole.exr and is no row), frame (of the same rays: NAME.pull.0001.exr becomes NAME.denoised.pull.0001.exr). Without them, both are -. The seconds of the second of two runs are added to those of the
+KIND says what albedo and normals are: clean (without noise), noisy (from the same rays), pinhole (from other rays: the
+result is named PICTURE.pinhole.exr and is not a row), frame (from the same rays: NAME.pull.0001.exr becomes
+NAME.denoised.pull.0001.exr). Without them, both are -. The seconds of the second of two runs are added to those of the
 picture in the camera.json beside it.
 """
 import json

@@ -1,32 +1,33 @@
 #!/bin/bash
-# What dof-finish makes of five views and of rays over the lens, in the folder that lab/denoise filled: finished_N.exr and, with each
-# render denoised, finished_N.denoised.exr, N rays in all. Of a scene of dof-trace half of the rays go into the views, which are twice
-# as fine where they have four rays a pixel, and a pull of focus is finished as in more.sh, by the views of one frame and rays of each.
-# Of ready-made pictures (SCENE is -) all views are finished by drt_64.exr and drt_16.exr.
+# Makes pictures with dof-finish from five views and rays over the lens, in the folder that lab/denoise filled:
+# finished_N.exr and, with each render denoised, finished_N.denoised.exr, with N rays in total. For a scene of dof-trace
+# half of the rays go into the views, which are twice as fine if they have four rays per pixel; a focus pull is finished
+# as in more.sh, with the views of one frame and rays for each frame. For ready-made pictures (SCENE is -) all views are
+# finished with drt_64.exr and drt_16.exr.
 #
 #   finished.sh BIN_DIR SCENE [WIDTHxHEIGHT LIGHT PYTHON]
 #
-# Seconds are those of all rays and tools, one after the other.
+# Seconds include all rays and tools, one after the other.
 set -euo pipefail
 others=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scene=$2 size=${3-} light=${4-} python=${5-}
 . "$others/common.inc" "$1" "$others"
 trace() { dof-trace "$scene" --size "$size" "$@" >/dev/null; }
 
-# seconds CAMERA NAME...: of what that camera.json lists with such beginnings, together.
+# seconds CAMERA NAME...: the sum of camera.json's seconds whose names begin with any NAME.
 seconds() {
     python3 - "$@" <<'END'
 import json, sys
 print(sum(s for name, s in json.load(open(sys.argv[1]))["seconds"].items() if name.startswith(tuple(sys.argv[2:]))))
 END
 }
-# timed COMMAND...: leaves its seconds in $took.
+# timed COMMAND...: stores its seconds in $took.
 timed() {
     local begin=${EPOCHREALTIME/./}
     "$@" 2>/dev/null
     took=$(awk -v us=$((${EPOCHREALTIME/./} - begin)) 'BEGIN { print us / 1e6 }')
 }
-# row FILE RAYS WAY SECONDS...: one more picture of the folder.
+# row FILE RAYS WAY SECONDS...: adds a picture to the folder's camera.json.
 row() {
     python3 - "$@" <<'END'
 import json, sys
@@ -38,7 +39,7 @@ camera["others"] = [o for o in camera.get("others", []) if o["file"] != file] + 
 json.dump(camera, open("camera.json", "w"), indent=1)
 END
 }
-gather() { # VIEWS...: into gathered.exr, at the size of the rays
+gather() { # writes gathered.exr at the size of the rays
     ldi-warp "$@" -o views.ldi.exr && dof-gather views.ldi.exr "${fine[@]}" -o gathered.exr
 }
 
@@ -82,7 +83,7 @@ for rays in $budgets; do
     timed dof-finish gathered.exr half-$rays/rays_{1,2}.exr --denoised half-$rays/rays_1.denoised.exr,half-$rays/rays_2.denoised.exr -o finished_$rays.denoised.exr
     row finished_$rays.denoised.exr $rays 'finished, denoised' "${cost[@]}" "$took" "$(seconds $of rays_1.denoised rays_2.denoised)"
     [ $rays -ne 80 ] || mv views.ldi.exr finished_80.ldi.exr
-    mv $of half-$rays/cost.json # its views are no budget of their own
+    mv $of half-$rays/cost.json # its views are not a budget of their own
 done
 
 focus=$(python3 -c 'import json; print(json.load(open("camera.json"))["focus_distance"])')

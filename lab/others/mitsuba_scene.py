@@ -1,9 +1,11 @@
-"""A scene in Mitsuba 3, rendered by Mitsuba's own pinhole and thin lens: what lab/mitsuba runs in its virtual environment.
+"""A scene in Mitsuba 3, rendered with Mitsuba's own pinhole and thin lens. lab/mitsuba runs it in its virtual
+environment.
 
     python mitsuba_scene.py WIDTHxHEIGHT REFERENCE_RAYS [VARIANT]      in the folder to be filled
 
-A round table of spheres, one of them rough metal; a grille of thin rods before them, lamps behind them, a chequered floor and wall; light
-comes from a square above. Colour is light, Z the depth of the surface at the centre of a pixel, box filter.
+A round table of spheres, one of them rough metal; a grille of thin rods before them, lamps behind them, a chequered
+floor and wall; light comes from a square above. Colour is radiance, Z the depth of the surface at the centre of a
+pixel, with a box filter.
 """
 import json
 import pathlib
@@ -15,11 +17,11 @@ import mitsuba
 import numpy
 import OpenEXR
 
-mitsuba.set_variant("scalar_rgb")  # asks for nothing but the wheel
+mitsuba.set_variant("scalar_rgb")  # needs only the wheel
 width, height = map(int, sys.argv[1].split("x"))
 reference_rays = int(sys.argv[2])
 focal_mm, sensor_mm, lens_radius, focus = 50.0, 36.0, 0.05, 5.0
-eye = (0.0, 1.0, 0.0)  # it looks along +z, y is up: x goes to the left in the picture
+eye = (0.0, 1.0, 0.0)  # it looks along +z with y up: x points to the left in the picture
 rim = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]  # right, above, left, below
 
 
@@ -99,7 +101,7 @@ def load_scene():
 
 
 def depths(scene, sensor):
-    """Z of what the centre of each pixel shows: rays that do not jitter, one by one, in the scalar variant."""
+    """The Z of the surface at the centre of each pixel: unjittered rays, one by one, in the scalar variant."""
     z = numpy.full((height, width), 1e10, numpy.float32)
     for y in range(height):
         for x in range(width):
@@ -120,7 +122,7 @@ def write(file, pixels, z=None):
 
 
 def picture(folder, name, samples, seed, offset=(0.0, 0.0), lens=False, guides=None, z=None, alone=False):
-    """Renders; returns the seconds. Albedo and normals of the same rays go into folders of `guides`."""
+    """Renders; returns the seconds. Albedo and normals of the same rays go into folders named with `guides`."""
     sensor = camera(samples, seed, offset, lens)
     start = time.perf_counter()
     result = numpy.array(mitsuba.render(scene, sensor=sensor, integrator=guides_alone if alone else guided if guides else plain, spp=samples, seed=seed))
@@ -132,7 +134,7 @@ def picture(folder, name, samples, seed, offset=(0.0, 0.0), lens=False, guides=N
             to = pathlib.Path(guides.format(guide))
             to.mkdir(exist_ok=True, parents=True)
             kept = result[..., first:first + 3]
-            signed = kept if guide == "albedo" else numpy.stack([-kept[..., 0], kept[..., 1], -kept[..., 2]], 2)  # of the camera
+            signed = kept if guide == "albedo" else numpy.stack([-kept[..., 0], kept[..., 1], -kept[..., 2]], 2)  # camera axes
             channels = {c: numpy.ascontiguousarray(signed[..., i].astype(numpy.float32)) for i, c in enumerate("RGB")}
             OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, channels).write(str(to / name))
     return round(seconds, 3)
@@ -148,15 +150,15 @@ jobs = []
 places = {"center.exr": (0.0, 0.0)} | {f"view_{k}.exr": point for k, point in enumerate(rim)}
 scene = load_scene()
 z_of = {name: depths(scene, camera(1, 0, place)) for name, place in places.items()}
-if len(sys.argv) > 3:  # a variant that renders faster, where there is an LLVM that it can use
+if len(sys.argv) > 3:  # a faster variant, if a suitable LLVM is installed
     mitsuba.set_variant(sys.argv[3])
     scene = load_scene()
 path = {"type": "path", "max_depth": 4}
 plain = mitsuba.load_dict(path)
 guided, guides_alone = guides_of(path), guides_of({"type": "path", "max_depth": 1})
-for lens, guides in (False, None), (False, "warm"), (True, None), (True, "warm"):  # compiles, where the variant does
+for lens, guides in (False, None), (False, "warm"), (True, None), (True, "warm"):  # to compile the kernels
     picture("warm", "up.exr", 1, 1, lens=lens, guides=guides)
-for name, place in places.items():  # albedo and normals of a pinhole, without noise
+for name, place in places.items():  # noise-free albedo and normals of a pinhole
     picture("clean", name, 64, 77, place, guides="{}", alone=True)
 seed = 100
 for samples, folder in (16, "."), (1, "1"), (4, "4"), (64, "64"):

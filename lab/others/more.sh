@@ -1,7 +1,8 @@
 #!/bin/bash
-# What lab/rivals compares beyond lab/denoise, of a scene of dof-trace, in the folder that lab/denoise filled: averages of views over the
-# lens, views of twice the size with a quarter of the samples, and a pull of focus to 1.1 times its distance in 16 frames by rays over
-# the lens, the same denoised, and by averages. Frames have random numbers of their own, as renderers give them.
+# Pictures that lab/rivals compares in addition to lab/denoise, for a scene of dof-trace, in the folder that lab/denoise
+# filled: averages of views over the lens, views of twice the size with a quarter of the samples, and a focus pull to
+# 1.1 times its distance in 16 frames: by rays over the lens, by these denoised, and by averages. Each frame has its own
+# random numbers, as in renderers.
 #
 #   more.sh BIN_DIR SCENE WIDTHxHEIGHT LIGHT PYTHON
 set -euo pipefail
@@ -12,7 +13,7 @@ trace() { dof-trace "$scene" --size "$size" "$@" >/dev/null; }
 cp jobs jobs.denoised
 : >jobs
 
-# Averages: as many rays, four a view where there are views enough.
+# Averages with as many rays, four per view if there are enough views.
 for of in '5 1' '5 4' '20 4' '80 4'; do
     read -r views samples <<<"$of"
     rays=$((views * samples))
@@ -35,7 +36,7 @@ done
 
 # Finer views.
 for guide in albedo normal; do trace --light $guide --views 4 --spp 64 --supersample 2 -o fine-$guide; done
-rm -f fine-{albedo,normal}/camera.json # no budget of their own
+rm -f fine-{albedo,normal}/camera.json # not a budget of their own
 for samples in 4 16 64 256; do
     trace --light "$light" --views 4 --spp $samples --supersample 2 -o fine-$samples
     for name in center view_{0..3}; do
@@ -43,7 +44,7 @@ for samples in 4 16 64 256; do
     done
 done
 
-# The pull of focus.
+# The focus pull.
 focus=$(python3 -c 'import json; print(json.load(open("camera.json"))["focus_distance"])')
 for frame in {01..16}; do
     at=$(awk -v f="$focus" -v k="$frame" 'BEGIN { print f * (1 + .1 * (k - 1) / 15) }')

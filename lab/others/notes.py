@@ -1,10 +1,12 @@
-"""What a note costs: seconds and rays a pixel of each way to answer it, and the command. In the folder that lab/denoise and more.sh filled:
+"""Measures the cost of a note, in seconds and rays per pixel for each way to answer it, with the command. In the folder
+that lab/denoise and more.sh filled:
 
     python notes.py SCENE WIDTHxHEIGHT LIGHT      prints Markdown
 
-All ways begin with the same 80 rays a pixel, which the shot has had. Ray tracing traces them again; a denoiser is run on them; averages
-are taken anew of the views that are there; five views are gathered alone. A matte is that of what lies in the plane of focus. Seconds are
-those of the fastest of three runs by the clock, starting, reading and writing included.
+All ways begin with the same 80 rays per pixel, which the shot already has. Ray tracing traces them again, and a
+denoiser runs on them; averages are computed again from the existing views; five views are only gathered. A matte shows
+the object in the plane of focus. Seconds are wall time of the fastest of three runs, including start, reading and
+writing.
 """
 import glob
 import json
@@ -48,7 +50,7 @@ def denoiser_seconds():
 
 
 def with_matte(name):
-    """A view with a channel for the object in focus: what an id of a renderer comes to."""
+    """A view with a channel for the object in focus, as a renderer's id would give."""
     with OpenEXR.File(name, separate_channels=True) as file:
         channels = dict(file.channels())
         z = channels["Z"].pixels
@@ -67,7 +69,7 @@ print("| note | ray tracing, denoised or not | denoiser | averages of views | fi
 print("|---|---|---|---|---|")
 commands = []
 for note, look in notes:
-    # The matte of the same picture: the ids through the same lens, which cost no light.
+    # The matte of the same picture: ids through the same lens, which need no lighting.
     trace = ["dof-trace", scene, "--size", size, "--light", light if look else "albedo", "--views", "0", "--spp", "1", "--reference", "80",
              "-o", "note", *(look or [])]
     average = ["dof-accumulate", *lens_views, *(look or []), "-o", "note/average.exr"]

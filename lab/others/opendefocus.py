@@ -1,4 +1,5 @@
-"""OpenDefocus on the CPU over the centre view of the folder at hand: python opendefocus.py PROGRAM, which lab/others/opendefocus is."""
+"""Runs OpenDefocus on the CPU on the centre view in the current folder: python opendefocus.py PROGRAM (built from
+lab/others/opendefocus)."""
 import subprocess
 import sys
 

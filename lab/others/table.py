@@ -1,4 +1,5 @@
-"""The rows of report.csv at equal rays as Markdown: python table.py report.csv. Each cell: dB, worst blocks (dB), FLIP, seconds."""
+"""Prints the rows of report.csv at equal rays as Markdown: python table.py report.csv. Each cell: dB, worst blocks
+(dB), FLIP, seconds."""
 import csv
 import sys
 

@@ -21,8 +21,8 @@
 // If a lens point meets nothing opaque in a pixel, it looks at the neighbouring pixels, to the left and to the right,
 // above and below, and in the corners:
 // - two samples on opposite sides, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface
-//   torn by parallax: the lens point sees the farther of them (of several such pairs, the farthest; of equally far ones,
-//   the first);
+//   torn by parallax: the lens point sees the farther of them (of several such pairs, the farthest; of equally far
+//   ones, the first);
 // - else it sees the nearest filler (fillers.h), unless the samples on both sides are nearer than the filler by more
 //   than one_surface_px: such a narrow gap may also be a crack;
 // - else it does not know what is there, and only the coverage that it met counts.

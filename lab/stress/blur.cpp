@@ -28,7 +28,7 @@ StressResult constant_at_the_threshold() {
     return above;
 }
 
-// Texture in front of a texture in focus; all samples of the front as much out of focus as said.
+// A texture in front of a texture in focus; all samples of the front one have this CoC.
 StressResult front_at(double coc) {
     const ThinLens lens = plain_lens();
     return against_reference(grey_ldi(window(40, 28),
@@ -41,7 +41,7 @@ StressResult front_at(double coc) {
 StressResult front_1() { return front_at(-1); }
 StressResult front_10() { return front_at(-10); }
 
-// A floor that comes from before the focus and goes to the horizon within 28 rows.
+// A floor that rises from before the focus to the horizon within 28 rows.
 StressResult grazing() {
     return against_reference(
         grey_ldi(window(40, 28),
@@ -50,7 +50,7 @@ StressResult grazing() {
                  }),
         plain_lens(), 64);
 }
-// The same within two rows: from CoC -30 to 7 from one pixel to the next.
+// The same floor within two rows: from CoC -30 to 7 from one pixel to the next.
 StressResult steep() {
     return against_reference(grey_ldi(window(40, 28),
                                       [](int x, int y) {
@@ -60,7 +60,7 @@ StressResult steep() {
                              plain_lens());
 }
 
-// 4000 surfaces of coverage 0.001 in every pixel, from before the focus to behind it: 1 - 0.999^4000.
+// 4000 surfaces of coverage 0.001 in every pixel, from before the focus to behind it; their coverage is 1 - 0.999^4000.
 StressResult thousands() {
     StressResult result;
     const ThinLens lens = plain_lens();
@@ -80,7 +80,7 @@ StressResult thousands() {
     return result;
 }
 
-// One pixel of a plane at that CoC is lit. In A, R, G, B: a lamp; in Y: a pixel like any.
+// One lit pixel in a plane at that CoC. In A, R, G, B it is a lamp; in Y an ordinary pixel.
 struct Lit {
     ThinLens lens = wide_lens();
     double coc;
@@ -98,7 +98,7 @@ struct Lit {
     }
 };
 
-// The lamp's disc against exact areas, relative to the disc's own brightness.
+// The lamp's disc compared with exact areas, relative to the disc's own brightness.
 StressResult lamp_disc(double coc) {
     Lit lit(coc, true);
     const Psf psf{{lit.size / 2 + 0.5, lit.size / 2 + 0.5}, coc, 1};
@@ -122,8 +122,8 @@ StressResult pixel_energy(double coc) {
 StressResult pixel_5() { return pixel_energy(5); }
 StressResult pixel_50() { return pixel_energy(50); }
 
-// A wire one pixel wide, CoC 100 in front of a plane in focus. Through the lens it covers 1 pixel of every lens
-// point's picture, wherever that is, in all less than a row of lens points can miss: its share sums to 1 along a row.
+// A wire one pixel wide, CoC 100 in front of a plane in focus. In every lens point's picture it covers one pixel,
+// somewhere. In total this is less than a row of lens points can miss: its share sums to 1 along a row.
 StressResult thin_wire() {
     StressResult result;
     const ThinLens lens = plain_lens();
@@ -134,13 +134,13 @@ StressResult thin_wire() {
         return pixel;
     });
     const Image image = gather(ldi, lens, result, 256);
-    // Only lens points that move the wire by less than half the picture's height up or down keep it whole in the
-    // middle rows; beyond its ends the plane is seen instead, and what is unknown is left out. Per row:
+    // Only lens points that move the wire up or down by less than half the picture's height keep it whole in the middle
+    // rows. Beyond its ends the plane is seen instead, and unknown areas are left out. Per row:
     double worst = 0;
     for (int y = height / 2 - 1; y <= height / 2; ++y) {
         double share = 0;
         for (int x = 0; x < width; ++x) share += double(image.at(0, x, y));
-        const double t = double(height / 2) / 100; // of the lens's height that sees the wire in this row
+        const double t = double(height / 2) / 100; // of the lens height that sees the wire in this row
         const double seen = 2 / 3.14159265 * (std::asin(t) + t * std::sqrt(1 - t * t));
         worst = std::max(worst, std::abs(share - seen) / seen);
     }

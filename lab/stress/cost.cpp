@@ -1,4 +1,4 @@
-// How the cost of a gather grows, by counts: a device that gathers nothing counts what it is asked to look at.
+// Counts how the cost of a gather grows: a device that gathers nothing counts the samples it is asked to look at.
 #include "dof/device/tile_device.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
@@ -17,11 +17,11 @@ using namespace stress;
 
 constexpr double tile_pixels = lens_tile_size * lens_tile_size;
 
-// Over the tiles of a picture and the lens points of each: the samples in blocks that a lens point moves into the tile, and the
-// blocks that it asks.
+// Sums over all tiles and the lens points of each: the samples in blocks that a lens point moves into the tile, and the
+// blocks that it tests.
 struct Looked {
     double samples = 0, blocks = 0;
-    double points = 0; // lens points of all tiles
+    double points = 0; // lens points, summed over all tiles
     double for_each_pixel() const { return samples / (points * tile_pixels); }
 };
 
@@ -52,14 +52,14 @@ private:
                 looked.samples += block.end - block.begin;
         }
     }
-    // In the tile or the pixels next to it, along one axis.
+    // Whether a block lands in the tile or the pixels next to it, along one axis.
     static bool lands(float least, float most, const SampleBlock &block, float moved, int origin, int size) {
         const auto [low, high] = std::minmax({block.coc_min * moved, block.coc_max * moved});
         return most + high >= float(origin - 1) && least + low <= float(origin + size + 1);
     }
 };
 
-// An opaque plane of that CoC over a square picture.
+// An opaque plane of that CoC that fills a square picture.
 Looked looked_at(int size, double coc, StressResult &result) {
     const ThinLens lens{.radius = 1, .focal_px = 1000, .focus = 5};
     const Pixel pixel{{depth_of(lens, coc), 0.3f}};
@@ -86,7 +86,7 @@ StressResult blocks() {
     return result;
 }
 
-// Four times the pixels, and the disc as much wider.
+// The growth for four times the pixels, with a disc `wider` times as wide.
 StressResult grown(double coc, double wider, double Looked::*count) {
     StressResult result;
     const Looked small = looked_at(512, coc, result), large = looked_at(1024, coc * wider, result);
@@ -96,7 +96,7 @@ StressResult grown(double coc, double wider, double Looked::*count) {
 StressResult grown_picture() { return grown(10, 1, &Looked::blocks); }
 StressResult grown_disc() { return grown(40, 2, &Looked::samples); }
 
-// Samples that lie within a tile of so many cells, one beside it on either side, or in a block of 8 that reaches into that.
+// Samples within a tile of `cells` cells, one cell beside it on either side, or in a block of 8 that reaches into that.
 constexpr double samples_for_each_pixel(int cells) { return (cells + 17.0) * (cells + 17.0) / tile_pixels; }
 
 constexpr const char *whole_blocks = "a lens point moves into a tile what lies in it, one cell beside it, or "

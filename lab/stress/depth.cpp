@@ -15,7 +15,7 @@ using namespace stress;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double rounding = 1e-5; // of sums over lens points, in float (docs/tolerances.md, section 4)
 
-// Half covered surfaces at these depths, the same in every pixel, before a sky: shifted or not, they show their
+// Half covered surfaces at these depths, the same in every pixel, before a sky: displaced or not, they show their
 // composite.
 StressResult stack(const ThinLens &lens, std::span<const double> depths) {
     StressResult result;
@@ -42,7 +42,7 @@ StressResult ulps_apart() {
                                           double(std::nextafter(std::nextafter(z, 9.0f), 9.0f))});
 }
 
-// c at the float next to the focus, of a lens that makes it 60 pixels, against long double.
+// The CoC at the float next to the focus, compared with long double, for a lens that makes it 60 pixels.
 StressResult coc_beside_focus(float towards) {
     const ThinLens lens{.radius = 1e6, .focal_px = 640, .focus = 0.7f};
     const long double z = std::nextafter(0.7f, towards), d = 0.7f, rf = 640e6L;
@@ -68,8 +68,8 @@ StressResult plane_beside_focus(float towards) {
 StressResult plane_before_focus() { return plane_beside_focus(0); }
 StressResult plane_behind_focus() { return plane_beside_focus(9); }
 
-// Blobs before a textured backdrop at z. Depths of samples that may overlap differ: which of two at one depth is in
-// front is nobody's business.
+// Blobs before a textured backdrop at z. Depths of samples that may overlap differ, because the order of samples at one
+// depth is undefined.
 Ldi before_backdrop(double z) {
     return grey_ldi(window(40, 28), [&](int x, int y) {
         if ((x / 6 + y / 5) % 3 != 0) return Pixel{{z, texture(x, y)}};
@@ -91,7 +91,7 @@ StressResult sky_in_focus_inf() {
     return against_reference(before_backdrop(double(infinity)), lens);
 }
 
-// Focused on a millimetre: the whole scene is far behind the focus.
+// Focused at a millimetre: the whole scene is far behind the focus.
 StressResult focus_1e_3() {
     const ThinLens lens{.radius = 1e-5, .focal_px = 640, .focus = 1e-3};
     return against_reference(grey_ldi(window(40, 28),
@@ -101,7 +101,7 @@ StressResult focus_1e_3() {
                              lens);
 }
 
-// 50 mm lens in metres, a surface 20 mm in front of it: nearer than any real lens could focus, and still a plane.
+// A 50 mm lens in metres, and a surface 20 mm in front of it: nearer than any real lens could focus, but still a plane.
 StressResult inside_focal_length() {
     const ThinLens lens{.radius = 0.00125, .focal_px = 640, .focus = 0.03};
     return against_reference(grey_ldi(window(40, 28),
@@ -113,7 +113,7 @@ StressResult inside_focal_length() {
                              lens);
 }
 
-// The nearest surface a float can tell: its light leaves the picture, and nothing else is touched.
+// A surface at the smallest float depth: its light leaves the picture, and nothing else changes.
 StressResult nearest_float() {
     StressResult result;
     const ThinLens lens = plain_lens();
@@ -135,7 +135,7 @@ StressResult nearest_float() {
     return result;
 }
 
-// One pixel's depth is bad; the rest of a textured plane out of focus must not know.
+// One pixel's depth is bad; the rest of a textured plane out of focus must not change.
 StressResult bad_depth(float bad, std::size_t counted) {
     StressResult result;
     const ThinLens lens = plain_lens();

@@ -1,5 +1,4 @@
-// Discs of lamps of some pixels, and where tiles of the gather meet: in a disc that is half hidden, and in what lies near the
-// lens.
+// Discs of lamps several pixels wide, and the borders between tiles: in a half-hidden disc, and near the lens.
 #include "lab/stress/scenes.h"
 
 #include <algorithm>
@@ -18,8 +17,8 @@ constexpr double rounding = 1e-5; // of sums in float (docs/tolerances.md, secti
 // CoC up to 153 pixels behind focus.
 ThinLens wide_lens() { return {.radius = 1.2, .focal_px = 640, .focus = 5}; }
 
-// A round lamp before a dim wall. Where all of its pixels' discs lie over each other, the picture is their light by their area,
-// and the wall.
+// A round lamp before a dim wall. Where the discs of all its pixels overlap, the picture is their light divided by
+// their area, plus the wall.
 template <int Diameter, int CoC>
 StressResult disc() {
     constexpr float shine = 200, dim = 0.001f;
@@ -49,8 +48,8 @@ double disc_left_of(double t) {
     return t * std::sqrt(1 - t * t) + std::asin(t) + std::numbers::pi / 2;
 }
 
-// A lamp in the corner of four tiles, and an opaque half plane x >= 67 before it: each column against the area of the disc
-// that the half plane's shadow leaves, relative to the brightest.
+// A lamp at the corner of four tiles, and an opaque half plane x >= 67 before it: each column compared with the area of
+// the disc outside the half plane's shadow, relative to the brightest column.
 StressResult half_hidden() {
     constexpr double coc = 20, before = 5, edge = 67;
     const ThinLens lens = wide_lens();
@@ -74,8 +73,8 @@ StressResult half_hidden() {
     return result;
 }
 
-// A dark surface at a CoC of about -50, which leans by 0.4 pixels of CoC a pixel, before a ground of radiance 1: what of it is
-// seen through the surface around the corner of four tiles.
+// A dark surface at a CoC of about -50, which leans by 0.4 pixels of CoC per pixel, before a ground of radiance 1: the
+// radiance that leaks through the surface around the corner of four tiles.
 StressResult near_seam() {
     StressResult result;
     const ThinLens lens = wide_lens();

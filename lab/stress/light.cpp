@@ -28,7 +28,7 @@ Ldi lamp_ldi(float dark, float lamp, float alpha = 1) {
     });
 }
 
-// Beyond the reach of the lamp's disc the dark stays what it was, however bright the lamp: no sum mixes them.
+// Beyond the reach of the lamp's disc the dark stays as it was, however bright the lamp: no sum mixes them.
 StressResult beside_lamp(float dark, float lamp) {
     StressResult result;
     const Image image = gather(lamp_ldi(dark, lamp), plain_lens(), result, 0);
@@ -45,7 +45,7 @@ StressResult beside_lamp(float dark, float lamp) {
 StressResult dark_beside_65504() { return beside_lamp(1e-8f, 65504); }
 StressResult dark_beside_1e30() { return beside_lamp(1e-8f, 1e30f); }
 
-// The same without R, G, B: through the lens points.
+// The same without R, G, B: through lens points.
 StressResult points_beside_1e30() {
     const ThinLens lens = plain_lens();
     return against_reference(
@@ -73,7 +73,7 @@ StressResult bright_glass() {
 StressResult largest_light() { return constant_plane(plain_lens(), 9, 1e34); }
 StressResult smallest_light() { return constant_plane(plain_lens(), 9, 1e-30); }
 
-// What is stored as half: finite, and counted where it did not fit.
+// Values stored as half: finite, and counted if they do not fit.
 StressResult half_overflow() {
     constexpr std::array<float, 6> values{65504, 65519, 65520, 1e30f, -1e30f, 3e38f};
     std::array<Imath::half, values.size()> stored;
@@ -104,7 +104,7 @@ StressResult negative_lamp() {
     return result;
 }
 
-// A bad pixel in a plane of one colour: filled, it is that colour, and the picture the one without it.
+// A bad pixel in a plane of one colour: after filling it has that colour, and the picture equals the one without it.
 StressResult bad_colour(float bad) {
     StressResult result;
     Ldi ldi = lamp_ldi(0.5f, bad);
@@ -135,7 +135,7 @@ StressResult alpha_above() { return bad_alpha(1.5f, 1); }
 StressResult alpha_below() { return bad_alpha(-0.5f, 0); }
 StressResult alpha_nan() { return bad_alpha(std::nanf(""), 1); }
 
-// All but opaque before another colour: what shines through is 1e-7 of it.
+// An almost opaque surface before another colour, of which 1e-7 shines through.
 StressResult nearly_opaque() {
     StressResult result;
     const ThinLens lens = plain_lens();
@@ -156,7 +156,7 @@ StressResult nothing_at_all() {
     return result;
 }
 
-// Light without coverage, as of a flame: it adds to what lies behind, out of focus too.
+// Light without coverage, as from a flame: it adds to the things behind it, also out of focus.
 StressResult light_alone() {
     StressResult result;
     const ThinLens lens = plain_lens();

@@ -1,4 +1,4 @@
-// Looks of the lens where they are extreme: a plane of one colour keeps it under each of them.
+// Extreme looks of the lens: a plane of one colour keeps its colour under each of them.
 #include "base/error.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/stress/scenes.h"
@@ -26,7 +26,7 @@ std::array<LensLooks, 9> all_looks() {
             LensLooks{.magnification = 1.02}};
 }
 
-// How far the plane is from its colour, the flattened tiles among it.
+// How far the plane is from its colour, including flattened tiles.
 double off_plane(const LensLooks &looks, double coc, int width, int height) {
     ThinLens lens = plain_lens();
     lens.radius *= std::max(1.0, coc / 4);

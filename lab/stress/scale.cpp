@@ -13,7 +13,7 @@ namespace {
 
 using namespace stress;
 
-// The scene of the plain lens in a unit of that many of its own units.
+// The scene of the plain lens, in a unit of length that is `unit` of its own units.
 Ldi scene_in(double unit, bool colours) {
     const ThinLens lens = plain_lens();
     const auto pixel = [=](int x, int y) {
@@ -51,7 +51,7 @@ StressResult radius_so_small() {
     return result;
 }
 
-// With a lens as wide as the scene is deep, everything but the focus is spread over more than the picture.
+// With a lens as wide as the scene is deep, everything out of focus is spread over more than the picture.
 StressResult radius_large() {
     ThinLens lens = plain_lens();
     lens.radius = 1e6;

@@ -97,8 +97,8 @@ double sum_of(const Image &image, std::size_t channel) {
     return sum;
 }
 
-// Lens points of which rounding decides what they see: were these many, the comparison would prove little. With 16 a pixel,
-// that is one of them in one pixel of twenty (docs/tolerances.md, section 4).
+// The largest share of lens points for which rounding decides what they see; with more, the comparison would prove
+// little. With 16 per pixel, this is one of them in one pixel of twenty (docs/tolerances.md, section 4).
 constexpr double most_unsure = 0.05 / 16;
 
 StressResult against_reference(const Ldi &ldi, const ThinLens &lens, int lens_points) {

@@ -1,4 +1,4 @@
-// Small LDIs made from formulas, and the ways in which their pictures are judged.
+// Small LDIs made from formulas, and ways to judge their pictures.
 #pragma once
 
 #include "deep/ldi.h"
@@ -19,7 +19,7 @@ struct Sample {
 using Pixel = std::vector<Sample>;
 using PixelAt = std::function<Pixel(int x, int y)>; // EXR coordinates
 
-// Channels Y and A: seen by lens points alone, neither spread as highlights nor sharpened, which only R, G, B are.
+// Channels Y and A: seen only by lens points, neither spread as highlights nor sharpened, because only R, G, B are.
 Ldi grey_ldi(const Windows &windows, const PixelAt &pixel);
 // R, G, B are colour, colour / 2, colour / 4.
 Ldi colour_ldi(const Windows &windows, const PixelAt &pixel);
@@ -32,19 +32,19 @@ float texture(int x, int y);                       // [0, 1), random
 Windows window(int width, int height);
 Imath::Box2i inner(const Windows &windows, int margin);
 
-// The default gather with this many lens points everywhere (0: as the tiles need); its time goes into `result`.
+// The default gather with this many lens points everywhere (0: as many as the tiles need). Adds its time to `result`.
 Image gather(const Ldi &ldi, const ThinLens &lens, StressResult &result, int lens_points = 64);
 
-// Largest relative difference from `value` in the channel, over the box; infinite where a value is not finite.
+// Largest relative difference from `value` in the channel, over the box; infinite if a value is not finite.
 double off_from(const Image &image, std::size_t channel, const Imath::Box2i &box, double value);
 // Largest difference of two pictures over the box, relative to the largest value of `expected`.
 double off_from(const Image &image, const Image &expected, const Imath::Box2i &box);
 double sum_of(const Image &image, std::size_t channel);
 
-// The fast gather against lens_gather_reference.h: how far a value lies outside of what that allows, relative to the
-// largest value.
+// Compares the fast gather with lens_gather_reference.h: how far a value is outside the range that the reference
+// allows, relative to the largest value.
 StressResult against_reference(const Ldi &ldi, const ThinLens &lens, int lens_points = 64);
-// A plane of one colour at that depth keeps it.
+// A plane of one colour at that depth, which must keep its colour.
 StressResult constant_plane(const ThinLens &lens, double z, double colour, int width = 48, int height = 32);
 
 } // namespace sparselens::lab::stress

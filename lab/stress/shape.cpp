@@ -12,7 +12,7 @@ using namespace stress;
 
 constexpr double rounding = 1e-5; // of sums over lens points, in float (docs/tolerances.md, section 4)
 
-// A texture with a disc in front of it, wherever the windows lie.
+// A texture with a disc in front of it, defined for any window.
 Pixel scene_at(int x, int y) {
     const ThinLens lens = plain_lens();
     const bool front = (x - 20) * (x - 20) + (y - 14) * (y - 14) < 50;
@@ -47,7 +47,7 @@ StressResult negative_origin() { return in_window({{-30, -20}, {9, 7}}, {{-30, -
 StressResult wide_pixels() { return in_window(frame, frame, 2); }
 StressResult high_pixels() { return in_window(frame, frame, 0.5f); }
 
-// A window far from the origin shows what it shows at the origin: floats count from the window's own corner.
+// A window far from the origin shows the same as at the origin, because floats count from the window's own corner.
 StressResult far_origin() {
     StressResult result;
     const Imath::V2i away(1 << 28, -(1 << 28));
@@ -61,7 +61,7 @@ StressResult far_origin() {
     return result;
 }
 
-// The picture of part of the data window is that part of the picture where the part's border is far.
+// The picture of part of the data window equals that part of the whole picture, far from the part's border.
 StressResult part_of_picture() {
     StressResult result;
     Progress silent;

@@ -14,8 +14,8 @@ constexpr double rounding = 1e-5; // of sums over lens points, in float (docs/to
 // CoC up to 80 pixels behind focus.
 ThinLens near_lens() { return {.radius = 0.625, .focal_px = 640, .focus = 5}; }
 
-// A dark plane of so many hundredths of a pixel of CoC a pixel, across and down, before a ground of radiance 1: what of it is
-// seen through the plane in the middle, where every lens point looks at the plane.
+// A dark plane that leans by this many hundredths of a pixel of CoC per pixel, across and down, before a ground of
+// radiance 1: the radiance that leaks through the plane in the middle, where every lens point looks at the plane.
 template <int Across, int Down = 0>
 StressResult tilted_plane() {
     StressResult result;
@@ -40,7 +40,7 @@ StressResult bumps() {
                  [&](int x, int y) {
                      const double across = std::abs((x % 12) - 5.5) / 6, down = (y - 10.0) / 12;
                      const double bump = 1 - across * across - down * down;
-                     const double coc = 5 - height * bump + 0.02 * double(texture(y, x)); // no two alike
+                     const double coc = 5 - height * bump + 0.02 * double(texture(y, x)); // all depths differ
                      return Pixel{{depth_of(lens, coc), texture(x, y)}, {depth_of(lens, 70), 10}};
                  }),
         lens, 16);

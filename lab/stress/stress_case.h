@@ -1,4 +1,5 @@
-// Stiff and extreme cases, each with its expected result and a bound on the error: the table behind dof-stress.
+// Extreme and numerically stiff cases, each with its expected result and a bound on the error: the table behind
+// dof-stress.
 #pragma once
 
 #include <cmath>
@@ -9,8 +10,8 @@ namespace sparselens::lab {
 
 // The measurements of one case.
 struct StressResult {
-    double error = 0; // as the claim of the case defines it; at most its bound
-    // The relative change of the sum of light; NaN where it has no meaning.
+    double error = 0; // as the claim of the case defines it; must not exceed its bound
+    // The relative change of the sum of light; NaN if it has no meaning.
     double energy = std::numeric_limits<double>::quiet_NaN();
     double seconds = 0, pixels = 0; // for the kernel alone
 };
@@ -41,7 +42,7 @@ std::span<const StressCase> cost_stress();
 
 std::span<const StressFamily> stress_families();
 
-// Light may be neither lost nor created: docs/tolerances.md, section 3.
+// Light may not be lost or created: docs/tolerances.md, section 3.
 inline constexpr double energy_bound = 1e-4;
 
 inline bool energy_is_kept(const StressResult &r) { return !(std::abs(r.energy) > energy_bound); }

@@ -19,7 +19,7 @@ using namespace stress;
 constexpr double focal_px = 200, front_z = 2, back_z = 12;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// A smooth texture; what lies in front is a round hole-less disc. Places are the centre view's, pixels.
+// A smooth texture; the front object is a round disc without holes. Positions are those of the centre view, in pixels.
 double light(double x, double y, double phase) {
     return 0.5 + 0.3 * std::sin(0.7 * x + phase) * std::cos(0.45 * y - 0.2 * x);
 }
@@ -73,7 +73,8 @@ StressResult same_lens_point() {
     const Image once = flatten(warped({centre_view(), rim}, result)),
                 twice = flatten(warped({centre_view(), rim, rim}, result));
     const Imath::Box2i box({0, 0}, {71, 47});
-    // The mean leans to the rim view, whose pixels are up to half a pixel off: by what the texture changes over that.
+    // The mean leans towards the rim view, whose pixels are up to half a pixel off: the error is the texture's change
+    // over that distance.
     result.error = off_from(crop(twice, box), crop(once, box), box);
     return result;
 }
@@ -100,7 +101,8 @@ StressResult other_data() {
     return flattened({centre_view(), view_from({0.05, 0}, part), view_from({0, 0.05}, more)}, Merge::keep);
 }
 
-// Whether a view said to stand at `stated`, though it stands at `actual`, is found out: 0 as it should be, 1 not.
+// Whether the tool finds the true position of a view from `actual` that claims to be from `stated`: 0 if the answer is
+// right, else 1.
 double found_out(const Imath::V2d &actual, const Imath::V2d &stated, float noise = 0) {
     View view = view_from(actual, window(72, 48), noise);
     view.position = stated;
@@ -129,7 +131,7 @@ StressResult right_way() {
     return result;
 }
 
-// Views of nothing but sky, of things nearer than a float's smallest inverse, and of nothing.
+// Views of only sky, of things nearer than a float's smallest inverse, and of nothing.
 StressResult extreme_depths() {
     StressResult result;
     for (const float z : {infinity, 3e38f, std::numeric_limits<float>::min()}) {
@@ -137,8 +139,8 @@ StressResult extreme_depths() {
         std::ranges::fill(centre.z, z);
         std::ranges::fill(rim.z, z);
         const Image flat = crop(flatten(warped({centre, rim}, result)), centre.image.windows.data);
-        for (const float v :
-             flat.values) // all see the sky alike; what is too near for the rim view the centre has alone
+        // All views see the sky alike. Only the centre view has what is too near for the rim view.
+        for (const float v : flat.values)
             if (!std::isfinite(v) || v < 0 || v > 1.001f) result.error = 1;
         result.error = std::max(result.error, off_from(flat, 3, flat.windows.data, 1));
     }
