@@ -134,7 +134,8 @@ def picture(folder, name, samples, seed, offset=(0.0, 0.0), lens=False, guides=N
             to = pathlib.Path(guides.format(guide))
             to.mkdir(exist_ok=True, parents=True)
             kept = result[..., first:first + 3]
-            signed = kept if guide == "albedo" else numpy.stack([-kept[..., 0], kept[..., 1], -kept[..., 2]], 2)  # camera axes
+            # In camera axes.
+            signed = kept if guide == "albedo" else numpy.stack([-kept[..., 0], kept[..., 1], -kept[..., 2]], 2)
             channels = {c: numpy.ascontiguousarray(signed[..., i].astype(numpy.float32)) for i, c in enumerate("RGB")}
             OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, channels).write(str(to / name))
     return round(seconds, 3)

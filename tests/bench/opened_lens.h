@@ -1,4 +1,4 @@
-// What gathers are timed on: many surfaces, seen by a lens that is opened more and more.
+// Scenes for timing gathers: many surfaces, seen by a lens that is opened further and further.
 #pragma once
 
 #include "support/lens_ldi.h"
@@ -12,7 +12,7 @@ inline Ldi many_surfaces(int width, int height) {
                            false, 1);
 }
 
-// The lens opened `range` times, in tenths: the largest CoC is 6 px at 1.
+// The lens opened `range` tenths as wide: the largest CoC is 6 px at 1.
 inline ThinLens opened(const benchmark::State &state) {
     return {.radius = 0.06 * double(state.range(0)) / 10, .focal_px = 640, .focus = 5};
 }

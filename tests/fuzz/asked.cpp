@@ -1,5 +1,5 @@
-// Any bytes as what a page asks dof-view for: read, and put into the words of a command line, which name nothing that the page
-// could choose.
+// Any bytes as a page's request to dof-view: parsed, and turned into the words of a command line, which name no file
+// that the page could choose.
 #include "viewing/asked.h"
 
 #include "fuzz/fuzz.h"

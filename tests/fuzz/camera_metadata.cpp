@@ -1,4 +1,4 @@
-// Any values and texts as the camera in a header: read, put on a lens, written, read again.
+// Any values and texts as the camera in a header: read, resolved to a lens, written, read again.
 #include "fuzz/fuzz.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
@@ -18,7 +18,7 @@ using namespace sparselens;
 
 namespace {
 
-// Takes values from the bytes, zeros when they are used up.
+// Takes values from the bytes, and zeros after the end.
 class Bytes {
 public:
     Bytes(const std::uint8_t *data, std::size_t size) : data_(data), size_(size) {}
@@ -46,7 +46,7 @@ private:
 
 template <typename Scalar>
 Imath::Matrix44<Scalar> take_matrix(Bytes &bytes) {
-    Imath::Matrix44<Scalar> matrix; // near the identity more often than not
+    Imath::Matrix44<Scalar> matrix; // near the identity in most cases
     const auto changed = bytes.take<std::uint16_t>();
     for (int i = 0; i < 16; ++i)
         if (changed >> i & 1) matrix[i / 4][i % 4] = bytes.take<Scalar>();

@@ -1,5 +1,6 @@
-// Any lines as the channels of a file, and as the attributes that name Cryptomattes: what each is, the mattes, the beauty,
-// the depth, luminance and chroma. "h NAME", "f NAME" and "u NAME" are channels of half, float and uint, others attributes.
+// Any lines as the channels of a file and the attributes that name Cryptomattes: finds each channel's kind, the mattes,
+// the beauty, the depth, luminance and chroma. "h NAME", "f NAME" and "u NAME" are channels of half, float and uint;
+// other lines are attributes.
 #include "base/matte.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/depth_channel.h"

@@ -1,4 +1,4 @@
-// Any words as a command line: the options that the tools share.
+// Any words as a command line with the options that the tools share.
 #include "chain/channels.h"
 #include "fuzz/fuzz.h"
 #include "harness/commands/frames.h"
@@ -40,7 +40,7 @@ void use(const Options &options) {
 
 } // namespace
 
-// Words are separated by line feeds.
+// Line feeds separate the words.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     std::istringstream in(std::string(reinterpret_cast<const char *>(data), size));
     std::vector<std::string> words{"fuzz"};

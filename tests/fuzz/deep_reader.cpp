@@ -1,4 +1,4 @@
-// Any bytes as an LDI: read, made good, tidied, clustered, flattened.
+// Any bytes as an LDI: read, sanitized, tidied, clustered, flattened.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/front_samples.h"

@@ -1,4 +1,4 @@
-// Any bytes as a rendered view: header, pixels, depth, made good.
+// Any bytes as a rendered view: header, pixels and depth are read and sanitized.
 #include "deep/sanitize.h"
 #include "deep/view_samples.h"
 #include "fuzz/fuzz.h"

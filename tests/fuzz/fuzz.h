@@ -1,5 +1,5 @@
-// What the fuzz targets share. Each is a function that may be given any bytes; libFuzzer calls it (tests/fuzz.sh), and
-// replay.cpp with a kept corpus and simple mutations of it, as part of the tests.
+// Shared by the fuzz targets. Each target is a function that accepts any bytes. libFuzzer calls it (tests/fuzz.sh), and
+// as part of the tests replay.cpp, with a kept corpus and simple mutations of it.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ inline std::string_view text_of(const std::uint8_t *data, std::size_t size) {
     return {reinterpret_cast<const char *>(data), size};
 }
 
-// Failing is an answer; crashing, hanging and taking memory are not.
+// An exception is a valid answer; crashing, hanging and exhausting memory are not.
 template <typename Work>
 void may_fail(const Work &work) {
     try {

@@ -1,4 +1,4 @@
-// Any bytes as what comes over a connection of dof-view: as many requests as they make, each within its bounds.
+// Any bytes from a connection of dof-view: parsed into as many requests as they hold, each within its limits.
 #include "viewing/http_request.h"
 
 #include "fuzz/fuzz.h"

@@ -1,4 +1,4 @@
-// Any bytes as a file of keys, of each kind: read, and asked for the value at some frames, which reads as the same kind.
+// Any bytes as a file of keys of each kind: read, and evaluated at some frames. The values must read as the same kind.
 #include "fuzz/fuzz.h"
 #include "harness/commands/keys.h"
 #include "io/files/memory_file.h"

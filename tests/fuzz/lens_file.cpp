@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::may_fail([&] { read_lens_file(file.path(), {}); });
     fuzz::may_fail([&] {
         const LensFile lens = read_lens_file(file.path(), 2.3);
-        for (const LookNumber &number : look_numbers()) // what is read is in its range
+        for (const LookNumber &number : look_numbers()) // read values are in their range
             if (const auto &value = lens.values.*number.value; value && !number.range.holds(*value))
                 __builtin_trap();
     });

@@ -1,4 +1,4 @@
-// Runs a fuzz target without libFuzzer: over each file of a corpus, and over random mutations of it.
+// Runs a fuzz target without libFuzzer, on each file of a corpus and on random mutations of it.
 //
 //   fuzz-TARGET FOLDER MUTATIONS
 #include "base/random.h"
@@ -39,7 +39,8 @@ std::vector<Input> read_corpus(const std::filesystem::path &folder) {
     return corpus;
 }
 
-// One to eight of: a bit turned, a byte set, a word set to an extreme, a piece cut out, doubled, or taken from another.
+// Applies one to eight changes: flips a bit, sets a byte, sets a word to an extreme, cuts a piece out, doubles it, or
+// takes it from another input.
 Input mutated(Input input, const Input &other, Random &random) {
     constexpr std::uint32_t extremes[] = {0,          1,          0x7fffffff, 0x80000000,
                                           0xffffffff, 0x7f800000, 0x7fc00000, 0x10000};

@@ -1,5 +1,5 @@
-// The first device that can be used, be it in software; tests are skipped where there is none. Where Vulkan's validation
-// layer is not installed, a test that asks it to watch runs, and then says that nobody watched.
+// Uses the first device that works, even a software one; tests are skipped if there is none. If Vulkan's validation
+// layer is not installed, a test that asks for it still runs, and then says that it ran without validation.
 #pragma once
 
 #include "gpu/device.h"
@@ -19,7 +19,8 @@ protected:
             if (there.lacks.empty() && !info) info = there;
         if (!info) GTEST_SKIP() << "Vulkan gives access to no device here that has what the kernels need";
     }
-    // The validation layer has nothing to say, nor of what a device leaves behind: those of derived fixtures are gone.
+    // The validation layer must report nothing, also about leaked objects: the objects of derived fixtures are
+    // destroyed by now.
     ~GpuTest() override { EXPECT_EQ(said, std::vector<std::string>()); }
 
     void TearDown() override {

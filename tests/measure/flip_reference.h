@@ -1,5 +1,5 @@
-// FLIP as the paper states it, slow and plain: each filter is a square of weights that is laid over each pixel. Its colour spaces
-// and errors are those of measure/flip_terms.h.
+// FLIP in the form of the paper, slow and simple: each filter is a square of weights applied to each pixel. Colour
+// spaces and errors come from measure/flip_terms.h.
 #pragma once
 
 #include "measure/flip_terms.h"
@@ -17,8 +17,8 @@ struct PlainRgb {
     }
 };
 
-// The sum over the square around (x, y) of what `value` has there, each by its weight. The positive weights add up to 1, and the
-// negative ones, if there are any, to -1.
+// The weighted sum of `value` over the square around (x, y). The positive weights add up to 1, and the negative ones,
+// if any, to -1.
 inline double flip_filtered_plainly(int x, int y, int reach, const std::function<double(int, int)> &weight,
                                     const std::function<double(int, int)> &value) {
     double positive = 0, negative = 0, of_positive = 0, of_negative = 0;

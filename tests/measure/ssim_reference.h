@@ -1,4 +1,4 @@
-// Structural similarity as the paper states it (see measure/ssim.h), slow and plain.
+// Structural similarity in the form of the paper (see measure/ssim.h), slow and simple.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,8 @@
 
 namespace sparselens {
 
-// One window after the other, all its pixels, means first, then the moments about them. Pictures of at least 11 x 11.
+// One window after the other, all its pixels: first the means, then the moments about them. For pictures of at least 11
+// x 11.
 inline std::vector<double> ssim_reference(std::span<const float> a, std::span<const float> b, int width,
                                           int height) {
     std::vector<double> result;

@@ -1,5 +1,5 @@
-// Whether two pictures hold the same: the data windows, the channels by name, the samples of each pixel and their values. What
-// else a file says, and how many bits it keeps of a value, does not count.
+// Compares two pictures: the data windows, the channels by name, the samples of each pixel and their values. Other
+// contents of a file, and the number of bits it keeps of a value, do not count.
 #pragma once
 
 #include "pictures/picture.h"
@@ -9,9 +9,9 @@
 
 namespace pictures {
 
-// What the first difference is, and the largest; empty where there is none. Without a tolerance 0 and -0 differ; infinities equal
-// themselves, and so do values that are no numbers. `names`: these channels alone, which
-// both have to have; all if it is empty.
+// Describes the first difference and the largest; empty if there is none. Without a tolerance 0 and -0 differ; equal
+// infinities are equal, and so are NaNs. `names`: compares only these channels, which both pictures must have; all if
+// it is empty.
 std::string difference(const Picture &a, const Picture &b, const std::vector<std::string> &names,
                        double tolerance);
 

@@ -100,7 +100,7 @@ void erase(Picture &picture, const std::string &pattern) {
     const std::regex regex(pattern, std::regex::extended);
     std::vector<std::string> names;
     for (auto a = picture.header.begin(); a != picture.header.end(); ++a) names.push_back(a.name());
-    const Imf::Header kept(1, 1); // what each file has
+    const Imf::Header kept(1, 1); // attributes that every file has
     for (const std::string &name : names)
         if (std::regex_match(name, regex) && kept.find(name) == kept.end() && name != "type" &&
             name != "chunkCount")

@@ -1,4 +1,4 @@
-// Small flat pictures for tests: of one colour or with a few rectangles, and what a few words change about one that is there.
+// Small flat pictures for tests: of one colour or with a few rectangles, and edits of existing pictures by a few words.
 #pragma once
 
 #include "pictures/picture.h"
@@ -8,21 +8,21 @@
 
 namespace pictures {
 
-// WIDTHxHEIGHT, WIDTHxHEIGHT+X+Y: a window. Throws std::invalid_argument.
+// Parses a window: WIDTHxHEIGHT or WIDTHxHEIGHT+X+Y. Throws std::invalid_argument.
 Imath::Box2i window_of(const std::string &text);
 
-// A picture without channels, whose display window is its data window.
+// A picture without channels whose display window equals its data window.
 Picture blank(const Imath::Box2i &window);
 
-// Words, in the order in which they work:
-//   NAME=VALUE          the channel's value everywhere; makes the channel (of floats) where there is none. VALUE may be inf, nan
-//   NAME=LEFT..RIGHT    from the left column's to the right one's, evenly
+// The words are applied in order:
+//   NAME=VALUE          the channel's value everywhere; makes a channel of floats if there is none. VALUE may be inf, nan
+//   NAME=LEFT..RIGHT    a linear ramp from the left column to the right one
 //   NAME=noise:SEED     random, from 0 to 1
-//   NAME*=VALUE         times that
-//   fill=WINDOW         what follows up to all= is set or multiplied in there only
+//   NAME*=VALUE         multiplies by that
+//   fill=WINDOW         the words up to all= set or multiply only inside this window
 //   all=                everywhere again
-//   half=NAMES, float=NAMES     the type of channels, by commas; all channels without names
-//   channels=NAMES      these alone; NEW=OLD for one under another name
+//   half=NAMES, float=NAMES     the type of channels, separated by commas; all channels without names
+//   channels=NAMES      keeps only these; NEW=OLD renames one
 //   crop=WINDOW         the data window; transparent black where nothing was
 //   frame=WINDOW        the display window
 //   erase=PATTERN       attributes whose whole names match the extended regular expression

@@ -1,5 +1,5 @@
-// Makes and compares pictures for the scripts that test the tools, by OpenEXR alone. OpenImageIO's own tools do more, and take
-// fifty times as long to start.
+// Makes and compares pictures for the scripts that test the tools, with OpenEXR only. OpenImageIO's own tools do more,
+// but take fifty times as long to start.
 #include "pictures/compare.h"
 #include "pictures/edit.h"
 
@@ -32,7 +32,7 @@ struct Question {
     double tolerance = 0;
 };
 
-// What follows the two files: names begin with no digit.
+// The words after the two files; channel names do not begin with a digit.
 Question question(Words words) {
     Question q;
     for (const std::string &word : words)
@@ -108,7 +108,7 @@ int edit_file(Words words) {
 }
 
 struct Command {
-    std::size_t least, most; // words
+    std::size_t least, most; // number of words
     std::function<int(Words)> run;
 };
 

@@ -19,7 +19,7 @@ namespace pictures {
 
 namespace {
 
-// uint is read as it is, the others as float.
+// Reads uint channels as uint, all others as float.
 struct Buffer {
     std::vector<float> floats;
     std::vector<std::uint32_t> ids;
@@ -41,7 +41,7 @@ struct Buffer {
     }
 };
 
-// Where pixel (0, 0) would lie, of pixels of four bytes.
+// The address of pixel (0, 0), which may be outside the buffer, for pixels of four bytes.
 char *origin(char *first, const Picture &picture) {
     const Imath::V2i min = picture.window().min;
     return first - 4 * (min.x + std::ptrdiff_t(min.y) * picture.width());

@@ -33,7 +33,7 @@ inline Image filled(const Windows &windows, const std::vector<Channel> &channels
     return image;
 }
 
-// Whole numbers as ids, of which there are few.
+// Random values; ids are whole numbers from a small range.
 inline Image random_picture(const Windows &windows) {
     std::vector<Channel> channels = all_channels();
     return filled(windows, channels, [&](std::size_t k, int x, int y) {

@@ -7,8 +7,8 @@ namespace sparselens {
 
 namespace {
 
-// A stretch with this optical depth and this light, both spread evenly, in front of everything so far unseen:
-// the integral of light * exp(-depth * s) for s in [0, 1] is light * (1 - exp(-depth)) / depth.
+// Adds a stretch with this optical depth and this light, both spread evenly, behind everything so far: the integral of
+// light * exp(-depth * s) for s in [0, 1] is light * (1 - exp(-depth)) / depth.
 void add_stretch(Composite &seen, long double &transmittance, long double depth, long double light) {
     seen.colour += transmittance * light * (depth > 0 ? -std::expm1(-depth) / depth : 1);
     transmittance *= std::exp(-depth);
@@ -16,7 +16,7 @@ void add_stretch(Composite &seen, long double &transmittance, long double depth,
 
 long double optical_depth(const TestSample &s) { return -std::log1p(-(long double)s.alpha); }
 
-// How much light a sample gives off if nothing of it is absorbed.
+// The light that a sample emits if none of it is absorbed.
 long double light_of(const TestSample &s) {
     return s.alpha > 0 ? s.colour * optical_depth(s) / s.alpha : s.colour;
 }

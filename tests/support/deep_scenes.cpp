@@ -12,7 +12,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr double focus = 10, farthest_coc = 20; // scene units; pixels, of infinity
+constexpr double focus = 10, farthest_coc = 20; // scene units; pixels, at infinity
 
 double depth_of_coc(double coc) { return focus / (1 - coc / farthest_coc); }
 

@@ -1,5 +1,5 @@
-// The unit tests' main: as gtest's own, and a test that was skipped says so on a line that tests/skips.sh reads, whatever
-// --gtest_brief says.
+// The unit tests' main: as gtest's own, but each skipped test prints a line that tests/skips.sh reads, even with
+// --gtest_brief.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -19,6 +19,6 @@ class Skips : public testing::EmptyTestEventListener {
 
 int main(int argc, char **argv) {
     testing::InitGoogleTest(&argc, argv);
-    testing::UnitTest::GetInstance()->listeners().Append(new Skips); // which then owns it
+    testing::UnitTest::GetInstance()->listeners().Append(new Skips); // which takes ownership
     return RUN_ALL_TESTS();
 }

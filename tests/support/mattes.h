@@ -1,4 +1,4 @@
-// Cryptomattes for tests: channels, ids, and what the pixels of a picture show of an id.
+// Cryptomattes for tests: channels, ids, and the coverage of an id in the pixels of a picture.
 #pragma once
 
 #include "base/matte.h"
@@ -23,7 +23,7 @@ inline std::vector<Channel> channels_with_matte(int layers = 1) {
     return channels;
 }
 
-// A hash: half of them are above 1e34 or denormal, none is infinite or no number.
+// A hash as an id: half of them are above 1e34 or denormal, none is infinite or NaN.
 inline float hashed(std::uint32_t n) {
     std::uint32_t bits = n * 2654435761u ^ 0x5bd1e995u;
     if (n % 4 == 0) bits = 0x7e000000u | (bits & 0xffffffu); // above 4e37
@@ -47,7 +47,7 @@ inline double coverage_in(const Image &picture, float id, std::size_t pixel) {
                        [&](std::size_t k) { return picture.plane(k)[pixel]; });
 }
 
-// The bits of all ids that cover something.
+// The bits of all ids with coverage.
 inline std::set<std::uint32_t> ids_in(const std::vector<Channel> &channels, std::size_t count,
                                       const auto &values_of) {
     std::set<std::uint32_t> ids;

@@ -18,7 +18,7 @@ void require(bool holds, const char *what) {
     if (!holds) throw std::runtime_error(std::string("PNG: ") + what);
 }
 
-// What is left of the file.
+// The rest of the file.
 class Reader {
 public:
     explicit Reader(const std::string &file) {
@@ -54,7 +54,7 @@ Chunk next_chunk(Reader &reader) {
     return {{checked.begin(), checked.begin() + 4}, {checked.begin() + 4, checked.end()}};
 }
 
-// The byte that the one to the left, the one above and the one to the left of that predict (section 9.4).
+// Predicts a byte from its left, upper and upper left neighbours (section 9.4).
 int paeth(int left, int above, int above_left) {
     const int estimate = left + above - above_left;
     const int to_left = std::abs(estimate - left), to_above = std::abs(estimate - above),

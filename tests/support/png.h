@@ -1,5 +1,5 @@
-// A PNG file of 8 bits RGB, read by the rules of its specification (ISO/IEC 15948) and zlib alone: that a library reads what it
-// wrote would say little of what others read.
+// Reads a PNG file of 8 bits RGB with only the rules of its specification (ISO/IEC 15948) and zlib. Reading with the
+// library that wrote the file would prove little about other readers.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Png {
     int at(int x, int y, int channel) const { return rgb[std::size_t((y * width + x) * 3 + channel)]; }
 };
 
-// Throws std::runtime_error where the file is anything else, a checksum is wrong, or it ends early.
+// Throws std::runtime_error if the file is anything else, a checksum is wrong, or it ends early.
 Png read_png(const std::string &file);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// A folder of its own for a test that touches files; gone with the test.
+// A temporary folder for a test that touches files; removed with the test.
 #pragma once
 
 #include <stdlib.h>
@@ -27,7 +27,7 @@ public:
 
     std::string file(const std::string &name) const { return (folder_ / name).string(); }
 
-    // How many entries it holds: a forgotten temporary file counts.
+    // The number of entries, which reveals a forgotten temporary file.
     std::size_t entries() const {
         return std::size_t(std::distance(std::filesystem::directory_iterator(folder_), {}));
     }
@@ -45,7 +45,7 @@ inline void put_contents(const std::string &path, const std::string &text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-// Runs `work`, which must throw an Exception, and returns what it says.
+// Runs `work`, which must throw an Exception, and returns its message.
 template <typename Exception, typename Work>
 std::string what_of(const Work &work) {
     try {

@@ -1,5 +1,5 @@
-// Files that lie beside the sources in ../shared on some machines: pictures too large, or not ours, to be kept
-// with them. Tests that use them are skipped, saying so, where they are absent.
+// Files in ../shared beside the sources, which exist on some machines: pictures that are too large, or not ours, to be
+// kept in the repository. Tests that use them are skipped, with a message, where they are absent.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace sparselens {
 
-// The path of a file in that folder (or in $SPARSELENS_SHARED), empty where it is absent.
+// The path of a file in that folder (or in $SPARSELENS_SHARED); empty if it is absent.
 inline std::string shared_file(const std::string &name) {
     const char *elsewhere = std::getenv("SPARSELENS_SHARED");
     const std::filesystem::path path =

@@ -21,8 +21,8 @@ View make_view(const Windows &windows, const Imath::V2d &position,
 
 namespace {
 
-// Where the centre view shows the point at depth z on the ray of the view's pixel: the ray starts at the view's camera,
-// and passes its picture plane, focal_px times zoom away, off the view's principal point.
+// Where the centre view shows the point at depth z on the ray of the view's pixel. The ray starts at the view's camera
+// and passes through its picture plane, which is focal_px times zoom away and shifted by the view's principal point.
 Imath::V2d followed(const Imath::V2d &pixel, double z, const Windows &windows, double focal_px,
                     const Imath::V2d &position, const Framing &framing) {
     const Imath::V2d middle =

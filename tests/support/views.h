@@ -1,4 +1,4 @@
-// Views made from a formula, with as many cameras as a test wants: two textured planes that face the camera.
+// Views made from a formula, with any number of cameras: two textured planes that face the camera.
 #pragma once
 
 #include "view/view.h"
@@ -15,12 +15,12 @@ struct ViewPixel {
     float r = 0, g = 0, b = 0, a = 1;
 };
 
-// pixel(x, y) for every pixel of the data window, EXR coordinates. Channels R, G, B, A.
+// pixel(x, y) gives every pixel of the data window, in EXR coordinates. Channels R, G, B, A.
 View make_view(const Windows &windows, const Imath::V2d &position,
                const std::function<ViewPixel(int x, int y)> &pixel);
 
-// A front plane with holes before a back plane. Positions on both are given as where the centre view shows them,
-// in pixels (its optical axis goes through the middle of the display window); the picture of a camera at `position`
+// A front plane with holes before a back plane. Positions on both are given by where the centre view shows them, in
+// pixels (its optical axis goes through the middle of the display window); the picture of a camera at `position`
 // follows along the rays of its pixels.
 struct TwoPlanes {
     double focal_px = 100;
@@ -36,7 +36,7 @@ struct TwoPlanes {
 // The centre, then rim views to the right, above, to the left and below.
 std::vector<View> five_views(const TwoPlanes &scene, const Windows &windows, double radius);
 
-// Random depths from a few, random colours, some pixels empty, some infinitely far: nothing fits together.
+// Random depths from a small set, random colours, some pixels empty, some infinitely far: the views are inconsistent.
 View random_view(const Windows &windows, const Imath::V2d &position, std::uint32_t seed);
 
 } // namespace sparselens

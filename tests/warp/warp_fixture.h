@@ -1,4 +1,4 @@
-// Views to warp, the two ways to do it, and what came of it.
+// Views to warp, both ways to warp them, and access to the results.
 #pragma once
 
 #include "support/ldi_samples.h"
@@ -13,7 +13,7 @@ namespace sparselens::warping {
 
 inline constexpr float inf = std::numeric_limits<float>::infinity();
 inline constexpr double focal_px = 100, radius = 0.06;
-// Silhouettes have tests of their own.
+// Without silhouettes, which have their own tests.
 inline const WarpOptions averaging{.focal_px = focal_px, .radius = radius, .split_silhouettes = false};
 inline const WarpOptions keeping{.focal_px = focal_px, .radius = radius, .merge = Merge::keep};
 
@@ -33,7 +33,7 @@ void for_each_pixel(const Imath::Box2i &box, const Visit &visit) {
 // Stripes of a front plane before a back plane.
 TwoPlanes fence();
 
-// One plane that fills the picture, at a depth by which rim views land between pixels.
+// One plane that fills the picture, at a depth for which rim views land between pixels.
 TwoPlanes one_plane(const std::function<float(double, double)> &red);
 
 std::vector<View> random_views(const Windows &windows, int count);

@@ -1,13 +1,13 @@
-// What the whole way from views to the picture is worth today, in dB of the tone-mapped picture against a ray-traced
-// reference. This table is the one place of it. A figure may fall by `floor_below` before the test fails, and is raised here
-// when the picture becomes better, so that what was won cannot be lost unseen (docs/tolerances.md, section 5). Where it is lowered,
-// section 8 has the reason.
+// The current quality of the whole chain from views to the picture, in dB of the tone-mapped picture against a
+// ray-traced reference. Only this table holds it. A figure may fall by `floor_below` before the test fails, and is
+// raised here when the picture becomes better, so that an improvement cannot be lost unnoticed (docs/tolerances.md,
+// section 5). Where it is lowered, section 8 has the reason.
 //
 //   build/bin/sparselens-lab-tests --gtest_filter='*Floors*'     prints each row as it is measured now
 //
-// The scenes are those of dof-trace at 240x135 with their own lens, views of 16 samples a pixel, quality final. Border: the 16
-// pixels along it. The references, in references/SCENE.exr, are 4096 rays a pixel, which at 256 rays stand above 47 dB
-// already, so their noise is some 12 dB below what is measured:
+// The scenes are those of dof-trace at 240x135 with their own lens, views of 16 samples per pixel, quality final.
+// Border: the 16 pixels along it. The references, in references/SCENE.exr, have 4096 rays per pixel. At 256 rays a
+// reference is already above 47 dB, so its noise at 4096 rays is about 12 dB below the measured error:
 //
 //   dof-trace SCENE --size 240x135 --views 0 --spp 1 --reference 4096 -o FOLDER
 //   oiiotool FOLDER/reference.exr --compression piz -o SCENE.exr
@@ -25,7 +25,7 @@ struct Decibels {
 struct MeasuredScene {
     const char *scene;
     Decibels five_views, one_view;
-    double least_alpha; // of the picture from five views: 1 where the scene is opaque, 0 where nothing is
+    double least_alpha; // of the picture from five views: 1 for an opaque scene, 0 for empty parts
 };
 
 // clang-format off
@@ -40,7 +40,7 @@ inline constexpr MeasuredScene measured_scenes[] = {
 };
 // clang-format on
 
-// The same from five views of twice the size and 4 samples for each of their pixels, at normal quality.
+// The same from five views of twice the size with 4 samples in each of their pixels, at normal quality.
 struct MeasuredDoubled {
     const char *scene;
     Decibels five_views;
@@ -53,14 +53,15 @@ inline constexpr MeasuredDoubled measured_doubled[] = {
     {"macro", {37.55, 26.72}},
 };
 
-// Fence by --lens-radius 0.15 --focus-distance 0.5, where each tile is gathered in cells; and from views of twice the size. The
-// reference's own noise, 43 dB, is most of that: a picture that is 45 dB from the truth would stand 1 dB lower.
+// Fence with --lens-radius 0.15 --focus-distance 0.5, for which each tile is gathered in cells; and from views of twice
+// the size. Most of the error is the reference's own noise, 43 dB: a picture that is 45 dB from the truth would have 1
+// dB less.
 inline constexpr Decibels measured_cells{41.55, 39.73}, measured_doubled_cells{41.25, 39.33};
 
-// The steep relief of macro alone, before lamps of radiance 200.
+// Only the steep relief of macro, before lamps of radiance 200.
 inline constexpr double measured_macro_relief = 54.70;
 
-// Mist as a deep file holds it, volumes and all: four layers, 16 rays a pixel.
+// Mist as a deep file with volumes: four layers, 16 rays per pixel.
 inline constexpr Decibels measured_deep_mist{57.42, 56.85};
 
 } // namespace sparselens

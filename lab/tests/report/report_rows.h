@@ -1,4 +1,4 @@
-// Rows of a report as tests need them.
+// Report rows for tests.
 #pragma once
 
 #include "lab/report/row.h"
@@ -23,7 +23,7 @@ inline ReportRow report_row(Role role, const std::string &renderer, double secon
     return row;
 }
 
-// 3 dB whenever the time doubles: 30 dB in a second, 4 rays a second.
+// Gains 3 dB when the time doubles: 30 dB in a second, 4 rays per second.
 inline std::vector<ReportRow> ray_tracing_rows() {
     return {report_row(Role::ray_tracing, "traced", 1, 4, 30),
             report_row(Role::ray_tracing, "traced", 4, 16, 36),

@@ -1,4 +1,4 @@
-// The fast lens gather held against the slow one.
+// Compares the fast lens gather with the slow one.
 #pragma once
 
 #include "lab/reference/lens_gather_reference.h"
@@ -9,9 +9,9 @@
 
 namespace sparselens {
 
-// Every value: rounding may decide whether a lens point sees a sample at its edge, nothing else. Where it does, the
-// answer is one of those that the reference holds possible. That these were many, or far apart, would prove little:
-// of the pictures here at most 2.8 % of the pixels have any, and the mean over all values is at most 4.2e-4 wide.
+// Checks every value. Only rounding may decide whether a lens point sees a sample at its edge; the answer must then be
+// one that the reference allows. Many or wide ranges would prove little: in the pictures here at most 2.8 % of the
+// pixels have a range, and the mean width over all values is at most 4.2e-4.
 inline void expect_within(const Image &image, const ReferencePicture &reference) {
     ASSERT_EQ(image.windows, reference.windows);
     ASSERT_EQ(image.values.size(), reference.values.size());

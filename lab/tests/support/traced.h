@@ -1,4 +1,4 @@
-// The test scenes as views and references, traced small.
+// The test scenes as small ray-traced views and references.
 #pragma once
 
 #include "lab/trace/render.h"
@@ -9,7 +9,7 @@
 
 namespace sparselens::lab {
 
-// A scene with its own lens; a size in the ratio 16:9 frames what 640x360 does.
+// A scene with its own lens. A size in the ratio 16:9 has the same framing as 640x360.
 struct SceneCamera {
     SceneCamera(std::string_view name, int width, int height);
     SceneCamera(const Scene &scene, const ThinLens &lens, int width, int height);

@@ -1,4 +1,4 @@
-// The slow, obvious tracer that the fast one is tested against: every primitive, in double, from the textbook.
+// A slow and simple ray tracer to test the fast one: every primitive, in double, by textbook formulas.
 #pragma once
 
 #include "lab/trace/tracer.h"
@@ -8,7 +8,7 @@
 
 namespace sparselens::lab {
 
-// Parameter of the nearest point of the sphere's outside, or inf.
+// Ray parameter of the nearest point on the sphere's outside, or inf.
 inline double sphere_hit(const Sphere &sphere, const Ray &ray) {
     const Imath::V3d to_ray = ray.origin - sphere.centre;
     const double a = ray.direction ^ ray.direction, b = 2 * (to_ray ^ ray.direction);

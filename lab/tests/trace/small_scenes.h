@@ -1,4 +1,4 @@
-// Scenes and settings for tests: small enough for closed forms.
+// Scenes and settings for tests, small enough for closed forms.
 #pragma once
 
 #include "base/progress.h"
@@ -20,7 +20,7 @@ inline Paint grey(const Imath::V3d &) { return {{0.5f, 0.5f, 0.5f}}; }
 inline Paint half_red(const Imath::V3d &) { return {{1, 0, 0}, 0.5f, true}; }
 inline Paint blue_light(const Imath::V3d &) { return {{0, 0, 1}, 1, true}; }
 
-// Faces the camera at depth z.
+// A quad that faces the camera at depth z.
 inline Quad facing_quad(double x0, double y0, double x1, double y1, double z, Material material) {
     return {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}}, material};
 }

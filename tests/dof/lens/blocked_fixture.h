@@ -1,4 +1,4 @@
-// An LDI as the lens gather holds it.
+// An LDI in the form that the lens gather uses.
 #pragma once
 
 #include "dof/lens/sample_blocks.h"

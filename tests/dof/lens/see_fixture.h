@@ -1,4 +1,4 @@
-// A tile of 64 x 64 pixels, by hand: what See and Weigh look at.
+// A hand-made tile of 64 x 64 pixels for tests of See and Weigh.
 #pragma once
 
 #include "blocked_fixture.h"
@@ -47,7 +47,7 @@ struct TileFixture {
                 facets};
     }
     TileTask task() const { return {{0, 0}, blocks, {}, {}, points}; }
-    // The key of the sample at this place in a pixel.
+    // The key of the sample with this index in a pixel.
     std::uint64_t key(int x, int y, std::size_t place = 0) const {
         const std::size_t source = ldi.begin[std::size_t(y * 64 + x)] + place;
         const auto &sources = blocked.samples.source;
@@ -55,7 +55,7 @@ struct TileFixture {
     }
 };
 
-// An opaque sample of that CoC and value.
+// An opaque sample with that CoC and value.
 inline Sample opaque_at(double coc, float value = 1) {
     return {depth_of(TileFixture::lens, coc), {value, 1}};
 }

@@ -12,7 +12,7 @@ namespace sparselens::camera_headers {
 
 namespace {
 
-// Rows: the camera's axes and its place in the world.
+// Rows: the camera's axes and its position in the world.
 Imath::M44d to_world(const Imath::V3d &x, const Imath::V3d &y, const Imath::V3d &z, const Imath::V3d &place) {
     return {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, place.x, place.y, place.z, 1};
 }
@@ -125,7 +125,7 @@ const Renderer all_renderers[] = {
     {"V-Ray",
      [](Imf::Header &h, const Pose &p) {
          put(h, "cameraFocalLength", focal);
-         put(h, "cameraAperture", 36); // of which the picture shows a part
+         put(h, "cameraAperture", 36); // the picture shows a part of it
          put(h, "cameraFov", degrees(film / focal));
          put(h, "cameraFNumber", fstop);
          put(h, "cameraTransform", to_world(p.right, p.up, -p.forward, p.place));
@@ -170,7 +170,7 @@ const Renderer all_renderers[] = {
          write_unreal(h, p, "unreal/layerData/rgba/", "unreal/layerData/rgba/");
      }},
     {"Nuke",
-     [](Imf::Header &h, const Pose &p) { // V-Ray's attributes that have gone through a Read and a Write
+     [](Imf::Header &h, const Pose &p) { // V-Ray's attributes after Nuke's Read and Write
          put(h, "nuke/exr/cameraFocalLength", std::to_string(focal));
          put(h, "nuke/exr/cameraFov", std::to_string(degrees(film / focal)));
          put(h, "nuke/exr/cameraFNumber", std::to_string(fstop));

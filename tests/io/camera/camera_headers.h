@@ -1,4 +1,4 @@
-// Headers as each renderer writes them: one camera, one set of attributes a renderer.
+// Headers as each renderer writes them: one camera, with one set of attributes per renderer.
 #pragma once
 
 #include "base/image.h"
@@ -13,7 +13,7 @@
 
 namespace sparselens::camera_headers {
 
-// 35 mm behind a film of 24.5 mm, a picture of 64 x 36 pixels.
+// A 35 mm lens before a film of 24.5 mm, and a picture of 64 x 36 pixels.
 inline constexpr double focal = 35, film = 24.5, fstop = 2.8, focus = 6.5;
 inline const Windows windows = windows_of_size(64, 36);
 
@@ -29,11 +29,11 @@ struct Pose {
     }
 };
 
-// Rows of its matrix: the camera's axes, looking forward, and its place in the world.
+// Rows of the matrix: the camera's axes, looking forward, and its position in the world.
 Imath::M44d standard_camera(const Pose &p);
 
 enum class Ndc { standard, y_up, clip };
-// For a camera that looks along its positive (sign 1) or negative z; shift: of the picture, in picture widths.
+// For a camera that looks along its positive (sign 1) or negative z. `shift`: of the picture, in picture widths.
 Imath::M44d projection(Ndc kind, double sign, double shift = 0);
 
 void put(Imf::Header &h, const char *name, double value);

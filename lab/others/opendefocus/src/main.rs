@@ -1,6 +1,5 @@
-// Runs OpenDefocus on the CPU: reads WIDTH x HEIGHT pixels of four floats from COLOUR and one float from RADII (the
-// circle of confusion in pixels, positive before the focus, negative behind it), writes the defocused picture to OUTPUT
-// and prints the seconds it took.
+// OpenDefocus on the CPU: reads WIDTH x HEIGHT pixels of four floats from COLOUR and one float from RADII (the circle of confusion in
+// pixels, positive before the focus, negative behind it), writes the defocused picture to OUTPUT and prints the seconds it took.
 use futures::executor::block_on;
 use ndarray::{Array2, Array3};
 use opendefocus::OpenDefocusRenderer;
@@ -25,7 +24,7 @@ fn main() -> Result<(), Any> {
 
     let mut settings = Settings::default();
     settings.defocus.set_defocus_mode(DefocusMode::Depth);
-    settings.defocus.use_direct_math = true; // uses our radii, from the thin lens
+    settings.defocus.use_direct_math = true; // the radii are ours: those of the thin lens
     settings.defocus.circle_of_confusion.size = largest;
     settings.defocus.circle_of_confusion.max_size = largest;
     settings.defocus.circle_of_confusion.camera_data = None;
