@@ -66,7 +66,7 @@ TEST(ChannelKind, RanksOfACryptomatteByNameOrByTheHeader) {
     EXPECT_EQ(channels[1].rank, 0);
     EXPECT_EQ(kind_of("objects00.R"), ChannelKind::light);
     EXPECT_EQ(found({{"objects00.R", PixelType::float32}}, {"objects"})[0].kind, ChannelKind::matte_id);
-    EXPECT_EQ(kind_of("CryptoObject00.R", PixelType::half), ChannelKind::light); // no half holds a hash
+    EXPECT_EQ(kind_of("CryptoObject00.R", PixelType::half), ChannelKind::light); // a half cannot hold a hash
 }
 
 TEST(Matte, IsFoundInAnyOrderOfItsChannels) {
@@ -85,7 +85,7 @@ TEST(Matte, IsFoundInAnyOrderOfItsChannels) {
     EXPECT_EQ(mattes[0].ranks[1].coverage, 0u);
 }
 
-// This header is made to take long: looking through all channels for each of them would take minutes.
+// A header made to take long: comparing each channel with all others would take minutes.
 TEST(ChannelKind, OfManyChannelsAreFoundAtOnce) {
     std::vector<Channel> channels;
     for (int i = 0; i < 100'000; ++i) channels.push_back({fmt::format("layer{}.y", i)});
@@ -104,7 +104,7 @@ TEST(ChannelKind, OfManyChannelsAreFoundAtOnce) {
     EXPECT_EQ(mattes[3].ranks[7].coverage, 100'001u + 2 * 307 + 1);
 }
 
-// Many ids in one pixel give the sums that few give, and take no more than sorting them.
+// Many ids in one pixel have the same sums as few, and cost no more than sorting.
 TEST(IdCoverage, AddsManyIds) {
     const std::uint32_t n = 500'000;
     IdCoverage sum;

@@ -22,7 +22,7 @@ TEST(PixelFilter, IsReadAndWritten) {
         EXPECT_EQ(text_of(pixel_filter_of(text).value()), text);
 }
 
-// In square sub-pixels, of shares that lie a sub-pixel apart.
+// The variance in square sub-pixels of shares one sub-pixel apart.
 double variance_of(const std::vector<double> &shares) {
     double sum = 0;
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -32,7 +32,7 @@ double variance_of(const std::vector<double> &shares) {
     return sum;
 }
 
-// The variance of the window of Blackman and Harris over the width 1, added up.
+// The variance of the Blackman-Harris window over the width 1, summed numerically.
 double blackman_harris_variance() {
     const double turn = 2 * std::numbers::pi;
     double all = 0, square = 0;
@@ -61,14 +61,14 @@ TEST(SubpixelShares, AddUpAreSymmetricAndNeverNegative) {
             }
 }
 
-// A box is as wide as the block; so is what is narrower than that, and whatever has one sub-pixel.
+// A box is as wide as the block. So is any narrower filter, and any filter with one sub-pixel.
 TEST(SubpixelShares, OfABoxAreEqual) {
     for (const PixelFilter &filter : {PixelFilter{}, PixelFilter{Shape::gaussian, 0.5}})
         EXPECT_EQ(subpixel_shares({4, filter}), std::vector<double>(4, 0.25));
     EXPECT_EQ(subpixel_shares({1, {Shape::gaussian, 8}}), std::vector<double>(1, 1.0));
 }
 
-// With what the views have and what the gather adds, the variance is that of the filter.
+// Together with the variance of the views and of the gather, the variance is the filter's.
 TEST(SubpixelShares, HaveTheVarianceThatIsMissing) {
     for (int across = 2; across <= 8; ++across)
         for (const double width : {1.5, 2.0, 3.0}) {
@@ -82,7 +82,7 @@ TEST(SubpixelShares, HaveTheVarianceThatIsMissing) {
         }
 }
 
-// What was found best by hand for Cycles' default: .075, .85, .075 before the mean of two.
+// The values tuned by hand for Cycles' default filter: .075, .85, .075 before the mean of two.
 TEST(SubpixelShares, OfCyclesAtTwiceTheSize) {
     const std::vector<double> shares = subpixel_shares({2, {Shape::blackman_harris, 1.5}});
     ASSERT_EQ(shares.size(), 4u);

@@ -31,7 +31,7 @@ void expect_packed(const std::vector<float> &values, std::size_t bytes) {
 }
 
 TEST(Plane, AllHalvesTakeTwoBytes) {
-    std::vector<float> all; // a NaN changes on its way through a float
+    std::vector<float> all; // a NaN may change on its way through a float
     for (std::uint32_t bits = 0; bits < 0x10000; ++bits)
         if (const float value = of_half(std::uint16_t(bits)); !std::isnan(value)) all.push_back(value);
     expect_packed(all, 2 * all.size());
@@ -43,7 +43,7 @@ TEST(Plane, WhatIsTheSameEverywhereTakesOneValue) {
     expect_packed({-0.0f, 0.0f}, 4); // two halves
 }
 
-// One value among many that no half holds: too many bits, too large, too small, a number of ids.
+// One value among many that a half cannot hold: too many bits, too large, too small, an id.
 TEST(Plane, OtherFloatsStay) {
     for (const float other : {0.1f, 65520.0f, 1e-9f, 1e-5f, std::bit_cast<float>(12345u),
                               std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()})

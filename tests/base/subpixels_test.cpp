@@ -10,7 +10,7 @@ namespace {
 
 const PixelFilter wide{PixelFilter::Shape::blackman_harris, 1.5};
 
-// Exactly, as the shares add up to 1, also where the border cuts the filter off.
+// Exactly, because the shares add up to 1, also where the border cuts the filter off.
 TEST(Subpixels, WhatIsConstantStaysSo) {
     for (const int across : {2, 3, 4, 16})
         for (const PixelFilter &filter : {PixelFilter{}, wide}) {
@@ -23,7 +23,8 @@ TEST(Subpixels, WhatIsConstantStaysSo) {
         }
 }
 
-// Each pixel is a number of sub-pixels: the sum over the picture is as much smaller. A filter only moves light.
+// Each pixel replaces a number of sub-pixels, so the sum over the picture is smaller by that factor. A filter only
+// moves light.
 TEST(Subpixels, LightIsKept) {
     for (const int across : {2, 3, 5})
         for (const PixelFilter &filter : {PixelFilter{}, wide}) {
@@ -40,8 +41,8 @@ TEST(Subpixels, LightIsKept) {
         }
 }
 
-// An element that begins and ends within pixels of its display window: the sub-pixels that it does not have are empty, and a wide
-// filter carries light into the pixels beside it. Beyond the display window nobody knows what there is.
+// An element that begins and ends within pixels of its display window: its missing sub-pixels are empty, and a wide
+// filter carries light into neighbouring pixels. Beyond the display window the content is unknown.
 TEST(Subpixels, WhatIsNotThereIsEmpty) {
     const Imath::Box2i display({0, 0}, {79, 79}), data({21, 21}, {45, 52});
     std::vector<Channel> channels{{"A"}, {"N.X"}};
@@ -67,7 +68,7 @@ TEST(Subpixels, WhatIsNotThereIsEmpty) {
     for (const float value : beyond.values) EXPECT_EQ(value, 1);
 }
 
-// What a pixel is does not depend on which others are made, as long as the sub-pixels under it are there.
+// A pixel's value does not depend on which others are computed, as long as its sub-pixels are there.
 TEST(Subpixels, OfAPartOfThePictureAreTheSame) {
     const Imath::Box2i data({0, 0}, {39, 39}), part({5, 6}, {9, 7});
     const Image fine = random_picture(windows_of(data, data));
@@ -89,7 +90,7 @@ TEST(Subpixels, OfABoxAndBack) {
     EXPECT_EQ(subpixels_under(box, {2, wide}), Imath::Box2i({-5, 5}, {10, 12}));
     EXPECT_EQ(pixels_reached(subpixels_in(box, 2), {2, {}}), box);
     EXPECT_EQ(pixels_reached(subpixels_in(box, 2), {2, wide}), Imath::Box2i({-3, 2}, {5, 6}));
-    constexpr int far = 1 << 28; // times 16 is 0, where integers overflow
+    constexpr int far = 1 << 28; // times 16 it overflows to 0
     EXPECT_EQ(middle_subpixel({far, -far}, 16),
               Imath::V2i(std::numeric_limits<int>::max(), std::numeric_limits<int>::min()));
 }

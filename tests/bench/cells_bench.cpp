@@ -1,5 +1,5 @@
-// Tiles far out of focus: the small scene that they are gathered from, their pixels made of cells, and a whole gather, which takes
-// both; at CoCs with cells of 4 x 4 and 8 x 8 pixels, and a little below.
+// Times tiles far out of focus: making the small scene that they are gathered from, making pixels from cells, and a
+// whole gather, which does both; at CoCs with cells of 4 x 4 and 8 x 8 pixels, and a little below.
 #include "dof/lens/cells.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
@@ -26,7 +26,7 @@ BENCHMARK(cells_interpolated)->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
 
 constexpr ThinLens lens{.radius = 1, .focal_px = 1000, .focus = 5}; // CoCs up to 200 px
 
-// A floor whose CoCs reach from that many pixels to 10 more.
+// A floor with CoCs from `coc` to 10 pixels more.
 Ldi floor_from(double coc) {
     return make_ldi(windows_of_size(512, 256), {{"R"}, {"G"}, {"B"}, {"A"}}, [&](int x, int y) {
         const auto light = float(0.2 + 0.2 * random_unit(x, y, 1));

@@ -1,4 +1,4 @@
-// EXR in and out: an LDI as deep file, a picture as flat one, by the threads OpenEXR was given.
+// Times EXR reading and writing: an LDI as a deep file, a picture as a flat one, with the threads given to OpenEXR.
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "support/ldi_samples.h"

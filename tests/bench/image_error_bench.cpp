@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-// All figures over the picture and three regions.
+// Times all figures over the picture and three regions.
 void figures(benchmark::State &state) {
     const int width = int(state.range(0)), height = width * 9 / 16;
     Image a(windows_of_size(width, height), rgba_channels()), b = a;

@@ -1,4 +1,4 @@
-// What is done to an LDI: putting its samples in order, clustering, flattening.
+// Times operations on an LDI: ordering its samples, clustering, flattening.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/tidy.h"
@@ -9,7 +9,7 @@
 namespace sparselens {
 namespace {
 
-// Points, of which half of the pixels are out of order; then with volumes that overlap.
+// Points, out of order in half of the pixels; then with volumes that overlap.
 void tidying(benchmark::State &state) {
     const Ldi messy =
         random_ldi({.width = 320, .height = 180, .volume_share = state.range(0) ? 0.3 : 0, .shuffled = true});
@@ -26,7 +26,7 @@ void tidying_the_tidy(benchmark::State &state) {
     state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
 }
 
-// Into as few as the tolerance allows; into at most `range` layers, which takes a search in each pixel.
+// Into the fewest clusters that the tolerance allows; into at most `range` layers, which needs a search in each pixel.
 void clustering(benchmark::State &state) {
     const Ldi ldi = tidy(random_ldi({.width = 320, .height = 180, .most_samples = 12, .opaque_share = 0.2}));
     const ClusterOptions options{.scale = 40, .tolerance = 0.25, .layers = int(state.range(0))};

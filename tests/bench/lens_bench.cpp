@@ -1,4 +1,4 @@
-// A picture of many surfaces through the lens gather, at each quality.
+// Times the lens gather on a picture of many surfaces, at each quality.
 #include "dof/lens/lens_gather.h"
 #include "support/lens_ldi.h"
 

@@ -1,4 +1,4 @@
-// Weights of one PSF: the closed form for each pixel, and row by row.
+// Times the weights of one PSF: the closed form for each pixel, and row by row.
 #include "lens/psf.h"
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// A picture of many surfaces through the selective gather.
+// Times the selective gather on a picture of many surfaces.
 #include "bench/opened_lens.h"
 #include "dof/selective/selective.h"
 

@@ -1,4 +1,4 @@
-// A picture of 1280x720 sub-pixels made into one of 640x360 and of 320x180 pixels.
+// Times the reduction of 1280x720 sub-pixels to 640x360 and to 320x180 pixels.
 #include "base/subpixels.h"
 
 #include <benchmark/benchmark.h>

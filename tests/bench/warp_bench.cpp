@@ -1,4 +1,4 @@
-// Views to LDI, with each of the options that change how much there is to do.
+// Times warping views to an LDI, with each of the options that change the amount of work.
 #include "support/views.h"
 #include "warp/warp.h"
 
@@ -9,7 +9,7 @@
 namespace sparselens {
 namespace {
 
-// Stripes before a back plane, noisy, as five views: 640 x 360.
+// Stripes before a back plane, noisy, in five views of 640 x 360.
 std::vector<View> views() {
     TwoPlanes scene;
     scene.focal_px = 640;

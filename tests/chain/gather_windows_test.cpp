@@ -1,4 +1,4 @@
-// Growth with each look: the picture of an element is the same whether its data window is tight or large.
+// The window grows with each look: the picture of an element is the same whether its data window is tight or large.
 #include "base/error.h"
 #include "chain/gather_windows.h"
 #include "deep/front_samples.h"
@@ -18,7 +18,7 @@ namespace {
 const ThinLens lens{.radius = 0.1, .focal_px = 400, .focus = 5}; // CoC up to 8 px behind focus
 const Imath::Box2i display({0, 0}, {191, 127});
 
-// A square at that CoC, off the axis.
+// A square with that CoC, off the axis.
 OpenedLdi element(double coc) {
     Windows windows;
     windows.display = display;
@@ -48,7 +48,7 @@ TEST(GatherWindows, GrowAsFarAsTheLooksSpreadLight) {
         for (const LensLooks &looks : {LensLooks{}, squeezed, curved, tilted, chromatic, breathing}) {
             OpenedLdi in = element(coc);
             for (Channel &channel : in.ldi.channels)
-                if (channel.name == "Y") channel.name = "R"; // which chromatic aberration spreads
+                if (channel.name == "Y") channel.name = "R"; // chromatic aberration spreads R
             const Image tight = gathered(in, looks);
             in.ldi = padded(in.ldi, display);
             in.header.dataWindow() = display;
@@ -72,8 +72,8 @@ TEST(GatherWindows, GrowAsFarAsTheLooksSpreadLight) {
         }
 }
 
-// Fine pixels of an element that begins and ends within blocks, with a lens of radius 0: the mean of each block, where nothing
-// beside the element is there to be averaged. A part of it is the same.
+// Fine pixels of an element that begins and ends within blocks, with a lens of radius 0: the mean of each block, empty
+// beside the element. A part of it has the same values.
 TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
     OpenedLdi in = element(0);
     in.ldi.windows.data = {{141, 31}, {152, 42}};
@@ -110,8 +110,8 @@ TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
     EXPECT_EQ(made({.proxy = 2, .supersample = 2}).windows, made({.proxy = 4}).windows);
 }
 
-// A lens of radius 0 spreads nothing, so a kept window shows what a grown one shows: what the file does not have is empty, its data
-// and its depth too. A wide filter carries light beyond the window.
+// A lens of radius 0 spreads nothing, so a kept window shows the same as a grown one: areas that the file lacks are
+// empty, including their data and depth. A wide filter carries light beyond the window.
 TEST(GatherWindows, KeepTheLightOfPixelsThatAreCovered) {
     OpenedLdi in = element(0);
     in.ldi.windows.data = {{141, 31}, {152, 42}};
@@ -139,9 +139,9 @@ TEST(GatherWindows, KeepTheLightOfPixelsThatAreCovered) {
     }
 }
 
-const std::string none = "(nothing was thrown)"; // by what_of()
+const std::string none = "(nothing was thrown)"; // the answer of what_of()
 
-// Views are warped for the picture's pixels, where those are more than two sub-pixels wide.
+// Views must be warped for the picture's pixels if these are more than two sub-pixels wide.
 TEST(GatherWindows, TheWarpMustHaveKnownOfSubpixels) {
     OpenedLdi in = element(0);
     in.name = "x.exr";
@@ -167,7 +167,7 @@ TEST(GatherWindows, CopiesCountAsMemory) {
     OpenedLdi in = element(0);
     in.name = "x.exr";
     in.ldi.dx = in.ldi.dy = in.ldi.weight = {};
-    // 144 samples of two channels and a depth; where each of 144 pixels has its own, and where the last one ends.
+    // 144 samples with two channels and a depth; the first sample index of each of 144 pixels, and the end of the last.
     constexpr std::uint64_t bytes = 144 * 3 * 4 + 145 * 8;
     const auto raised = [&](std::uint64_t limit) {
         GatherWindows frame;

@@ -1,4 +1,4 @@
-// LDIs of views and of other LDIs in memory, whose samples can be counted.
+// Makes LDIs from views and from other LDIs in memory, with a known number of samples.
 #include "base/error.h"
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
@@ -27,7 +27,7 @@ struct Told {
     bool has(const std::string &text) const { return std::ranges::find(words, text) != words.end(); }
 };
 
-// A wall, of which the first `columns` columns were rendered.
+// A wall of which only the first `columns` columns were rendered.
 OpenedView wall(int columns) {
     OpenedView in;
     in.view = make_view(windows, {0, 0}, [&](int x, int) {
@@ -55,7 +55,7 @@ TEST(MakeLdi, CountsWhatViewsGive) {
     const Camera written = read_camera(made.header);
     EXPECT_EQ(written.supersample, 2);
     EXPECT_EQ(written.focal_length_mm, 640);
-    EXPECT_EQ(centre.view.image.at(0, 0, 0), 0.5f); // is not used up
+    EXPECT_EQ(centre.view.image.at(0, 0, 0), 0.5f); // is not consumed
 }
 
 TEST(MakeLdi, NeedsADepthFileForEachPicture) {
@@ -99,7 +99,7 @@ TEST(ClusterLdi, MergesByTheLensOrWithoutIt) {
     EXPECT_THROW(samples({}, blind), UsageError);
 }
 
-// As the message says, whose focal lengths differ can be merged where the lens is given.
+// LDIs with different focal lengths can be merged if the lens is given, as the message says.
 TEST(ClusterLdi, TakesTheLensThatIsGivenForThatOfAll) {
     const OpenedLdi front = glass(2, 640), back = glass(4, 320);
     const OpenedLdi *both[] = {&front, &back};

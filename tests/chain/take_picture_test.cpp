@@ -1,4 +1,4 @@
-// Pictures whose values and notices are known in closed form; no face can get these wrong alone.
+// Pictures whose values and notices are known in closed form, tested once below all front ends.
 #include "base/error.h"
 #include "chain/take_picture.h"
 #include "chain/words.h"
@@ -71,7 +71,7 @@ TEST(TakePicture, HasTheCameraThatItWasTakenWith) {
     EXPECT_EQ(picture.image.at(1, 3, 4), 0.25f);
 }
 
-// The focus is the depth of the sub-pixel in the middle, and the lens is that of pixels of the picture.
+// The focus is the depth of the middle sub-pixel, and the lens is in pixels of the picture.
 TEST(TakePicture, FocusesOnWhatAPixelShows) {
     Told told;
     PictureRequest request;
@@ -111,7 +111,7 @@ TEST(TakePicture, IsTheMeanOfSubpixels) {
     EXPECT_EQ(shown.at(0, 1, 1), shown.at(1, 1, 1));
 }
 
-// A lamp at the border, whose disc is 4.7 pixels across, was cut off; in the middle it was not.
+// The frame cuts off the disc of a lamp at the border, 4.7 pixels across, but not that of a lamp in the middle.
 TEST(TakePicture, TellsThatOverscanIsMissing) {
     Told lit, dark;
     taken(plane(4.7, {0, 7}), {}, &lit);
@@ -171,7 +171,7 @@ TEST(TakePicture, HasTheChannelsThatAreAskedFor) {
     EXPECT_THROW(taken(bare, {}), Error);
 }
 
-// A card before the left half of the picture, given by its pixels or by those of the picture.
+// A card before the left half of the picture, in sub-pixels or in pixels of the picture.
 TEST(TakePicture, IsHeldOut) {
     for (const int across : {1, 2}) {
         const OpenedLdi card =
@@ -187,7 +187,7 @@ TEST(TakePicture, IsHeldOut) {
     }
 }
 
-// Highlights are brightened in a copy: 50 is 2 x 50, far above threshold and knee.
+// Highlights are brightened in a copy: 50 becomes 2 x 50, far above threshold and knee.
 TEST(TakePicture, LeavesTheLdiAsItIs) {
     const OpenedLdi in = plane(4);
     PictureRequest request = pinhole();

@@ -20,13 +20,13 @@ std::vector<Channel> named(const std::vector<std::string> &names) {
     return channels;
 }
 
-// A random LDI with coverages of its own for each colour, and a further layer.
+// A random LDI with its own coverage for each colour, and a further layer.
 Ldi coloured(const RandomLdi &how) {
     Ldi ldi = random_ldi(how);
     ldi.channels = named({"R", "G", "B", "A", "AB", "AG", "AR", "diffuse.G", "depth.x"});
     ldi.values.resize(ldi.channels.size(), std::vector<float>(ldi.samples()));
     for (std::size_t i = 0; i < ldi.samples(); ++i) {
-        const float a = ldi.values[3][i] *= 0.9f; // the opaque would be averaged by clusters
+        const float a = ldi.values[3][i] *= 0.9f; // clusters would average opaque samples
         ldi.values[4][i] = a * a;
         ldi.values[5][i] = 1 - (1 - a) * (1 - a);
         ldi.values[6][i] = 0.4f * float(i % 3);
@@ -36,7 +36,7 @@ Ldi coloured(const RandomLdi &how) {
     return ldi;
 }
 
-// The same with `coverage` in the place of A: what AR means for R, an ordinary LDI says by A.
+// The same LDI with `coverage` in place of A: an ordinary LDI expresses by A what AR means for R.
 Ldi covered_by(Ldi ldi, const std::string &coverage) {
     ldi.values[ldi.alpha()] = ldi.values[find_channel(ldi.channels, coverage)];
     for (const char *name : {"AR", "AG", "AB"})
@@ -57,7 +57,7 @@ TEST(ColouredAlpha, EveryChannelHasItsCoverage) {
     EXPECT_EQ(coverage("AR"), "AR");
     EXPECT_EQ(coverage("fog.R"), "fog.AR");
     EXPECT_EQ(coverage("fog.AG"), "fog.AG");
-    EXPECT_EQ(coverage("key.R"), "AR"); // of its own it has not all three
+    EXPECT_EQ(coverage("key.R"), "AR"); // the layer lacks one of its own three
     EXPECT_EQ(coverage("A"), "A");
     EXPECT_EQ(coverage("N.x"), "A");
     EXPECT_EQ(coverage_of(named({"R", "AR"}), 0), npos);
@@ -82,7 +82,7 @@ TEST(ColouredAlpha, AIsTheMeanWhereItIsMissing) {
     EXPECT_EQ(image.values, (LargeArray<float>{7, 8, 0.5f, 1, 0, 1, 0.5f, 1, 1, 1}));
 }
 
-// Red glass before a white wall: what is behind it comes through by colour.
+// Red glass before a white wall: each colour of the background passes by its own share.
 TEST(ColouredAlpha, FlattenAttenuatesEachColourByItsOwn) {
     Ldi ldi = ldi_of({{{.z = 1}, {.z = 2}}});
     ldi.channels = named({"R", "G", "B", "A", "AB", "AG", "AR"});
@@ -100,7 +100,7 @@ TEST(ColouredAlpha, EqualToAItIsNone) {
     EXPECT_EQ(by_coverage(random_ldi({})).size(), 1u);
 }
 
-// expect(channel, of the coloured LDI, of the one that says the same by A): each channel as if its coverage were A.
+// expect(channel, coloured LDI, ordinary LDI): compares each channel with an LDI in which its coverage is A.
 template <typename Made>
 void expect_as_by_alpha(const Ldi &ldi, const Made &make) {
     const auto whole = make(ldi);
@@ -152,7 +152,7 @@ TEST(ColouredAlpha, ProxiesAndHoldoutsKnowIt) {
     expect_as_by_alpha(ldi, [&](const Ldi &l) { return planes_of(flatten_held_out(l, holdout)); });
 }
 
-// Tinted glass before a white wall, both without an edge: no blur changes it.
+// Tinted glass before a white wall, both without an edge: blur changes nothing.
 TEST(ColouredAlpha, EveryMethodSeesThroughByColour) {
     constexpr int size = 24;
     Ldi ldi = ldi_of(std::vector<TestPixel>(size * size, {{.z = 2}, {.z = 8}}));

@@ -40,7 +40,7 @@ std::vector<double> depths_of(const Ldi &ldi, std::size_t pixel, double scale) {
     return depths;
 }
 
-// The fewest runs of at most `extent`, and the smallest extent for at most `layers` runs, by trying every way to
+// The fewest runs of at most `extent`, and the smallest extent for at most `layers` runs, found by trying all ways to
 // cut the sorted depths into runs.
 struct BruteForce {
     std::size_t fewest = SIZE_MAX;
@@ -91,7 +91,7 @@ TEST(Cluster, OpaqueSamplesOfOneSurfaceAreAveragedByWeight) {
     EXPECT_EQ(clustered(surface, {.scale = 100, .tolerance = 0.25}).size(), 2u); // now 0.6 px apart
 }
 
-// With K layers a wall far behind ends up in the cluster of what hides it: hidden, not mixed in.
+// With K layers a wall far behind joins the cluster of the sample that hides it, without mixing in.
 TEST(Cluster, WhatAnOpaqueSampleHidesIsNotMixedIn) {
     const TestPixel p = clustered({{.z = 2, .colour = 1}, {.z = 20, .colour = 100}}, {.layers = 1});
     ASSERT_EQ(p.size(), 1u);
@@ -107,7 +107,7 @@ TEST(Cluster, PartialCoverageIsComposited) {
     ASSERT_EQ(p.size(), 1u);
     EXPECT_FLOAT_EQ(p[0].colour, 1);
     EXPECT_FLOAT_EQ(p[0].alpha, 0.625f);
-    EXPECT_FLOAT_EQ(p[0].dx, 0.3f); // 0.5 of one is seen, 0.125 of the other
+    EXPECT_FLOAT_EQ(p[0].dx, 0.3f); // visible shares: 0.5 of one, 0.125 of the other
     EXPECT_FLOAT_EQ(p[0].z, float(0.625 / (0.5 / 2 + 0.125 / 3)));
     EXPECT_EQ(p[0].weight, 2);
 }
@@ -121,7 +121,7 @@ TEST(Cluster, AVolumeAmongPointsMakesAVolume) {
     const TestPixel p = clustered(mixed, {.layers = 2});
     ASSERT_EQ(p.size(), 2u);
     EXPECT_EQ(p[0].z, 1);
-    EXPECT_EQ(p[0].z_back, 1); // the farthest from the rest in perceptive depth stays alone
+    EXPECT_EQ(p[0].z_back, 1); // the sample farthest from the rest in perceptive depth stays alone
     EXPECT_EQ(p[1].z, 2);
     EXPECT_EQ(p[1].z_back, 500);
     const TestPixel points = clustered(
@@ -156,7 +156,7 @@ TEST(Cluster, AtMostKLayersWithTheLeastExtent) {
         }
 }
 
-// A pixel that needs no more than K clusters within the tolerance is not merged further; one that needs more is.
+// A pixel with at most K clusters within the tolerance is not merged further; one with more is.
 TEST(Cluster, ToleranceAndLayersTogether) {
     const ClusterOptions options{.tolerance = 0.1, .layers = 2};
     EXPECT_EQ(clustered(at_depths({1, 0.95, 0.5}), options).size(), 2u);
@@ -183,7 +183,7 @@ TEST(Cluster, NoSampleIsFurtherFromItsClusterThanIsSaid) {
                 }
             }
             EXPECT_LE(largest, out.largest_error);
-            EXPECT_GE(largest, out.largest_error / 4); // and the bound is not an idle one
+            EXPECT_GE(largest, out.largest_error / 4); // the bound is tight
         }
 }
 
@@ -245,7 +245,7 @@ TEST(Cluster, AlphaThatHalfCannotTellFromOneIsOpaqueNothingLessIs) {
     EXPECT_EQ(first_colour(1), 0);
     EXPECT_EQ(first_colour(1 - 0x1p-13f), 0);
     EXPECT_FLOAT_EQ(first_colour(1 - 0x1p-11f),
-                    1e4f * 0x1p-11f); // the half below 1: a bright lamp shines through
+                    1e4f * 0x1p-11f); // alpha of the half below 1: a bright lamp shines through
 }
 
 TEST(Cluster, IdsAreThoseOfTheFrontAndEmptyPixelsStayEmpty) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// Premultiplied, of this colour.
+// A premultiplied pixel of this colour.
 ViewPixel covered(float z, float a, float r = 1, float g = 1) {
     return {.z = z, .r = a * r, .g = a * g, .a = a};
 }
@@ -28,7 +28,7 @@ View row_of(const std::vector<ViewPixel> &pixels) {
                      [&](int x, int) { return pixels[std::size_t(x)]; });
 }
 
-// The depths of a row of pixels, once they are settled.
+// The depths of a row of pixels after they are settled.
 std::vector<float> settled(const std::vector<ViewPixel> &pixels) {
     View view = row_of(pixels);
     settle_edge_depths(view);
@@ -41,10 +41,10 @@ TEST(EdgeDepths, APartlyCoveredPixelOfTheSkyTakesTheDepthBesideIt) {
     EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
     EXPECT_EQ(settled({covered(3, 1), covered(1e9f, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
     EXPECT_EQ(settled({covered(3, 1), covered(1.2f, 0.4f), covered(inf, 0)}),
-              (Depths{3, 3, inf})); // 0 mixed in
+              (Depths{3, 3, inf})); // mixed with 0
     EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.9f), covered(inf, 0.1f), covered(inf, 0)}),
               (Depths{3, 3, 3, inf}));                                          // two pixels away
-    EXPECT_EQ(settled({covered(inf, 0.5f), covered(4, 0.5f)}), (Depths{4, 4})); // a hair is nowhere whole
+    EXPECT_EQ(settled({covered(inf, 0.5f), covered(4, 0.5f)}), (Depths{4, 4})); // a hair: no full pixel
 }
 
 TEST(EdgeDepths, TheColourSaysWhichSurfaceItIs) {
@@ -69,7 +69,8 @@ TEST(EdgeDepths, OtherDepthsStay) {
     }
 }
 
-// The renderer saw the depth of its first pixel only. Before nothing it is a strand, else what has no depth of its own.
+// Of a strand the renderer gave only the first pixel a depth. Before nothing the depth continues along all of it;
+// elsewhere, pixels without depth get one only near a known depth.
 TEST(EdgeDepths, AStrandOverNothingGoesOn) {
     for (const bool nothing : {true, false}) {
         View view = make_view(windows_of_size(14, 2), {0, 0}, [&](int x, int y) {
@@ -81,7 +82,7 @@ TEST(EdgeDepths, AStrandOverNothingGoesOn) {
     }
 }
 
-// A filter spreads a low step over five pixels, of which no two side by side are apart; steep steps above it tell that
+// A filter spreads a low step over five pixels, so that no two neighbours are apart. Steep steps above it show that
 // depth is filtered.
 TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
     const auto mixed = [](float near, float far, float share) {
@@ -104,8 +105,8 @@ TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
     EXPECT_EQ(ldi.values[3], (std::vector<float>{1, 0.4f, 0.9f}));
 }
 
-// A red disc of radius 8 before a green wall, or the sky; its edge mixes both in colour. `depth(share)` is that of a
-// pixel.
+// A red disc of radius 8 before a green wall, or the sky; its edge mixes the colours. `depth(share)` gives a pixel's
+// depth.
 template <typename Depth>
 View disc_before_wall(const Depth &depth) {
     return make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
@@ -133,7 +134,7 @@ TEST(EdgeDepths, FilteredDepthBecomesThatOfTheSurfaceShownMost) {
     }
 }
 
-// One sample says the depth of each pixel, and a few lie between by chance: nothing is filtered.
+// One sample gives each pixel's depth, and a few depths are intermediate by chance: nothing is filtered.
 TEST(EdgeDepths, DepthThatIsNotFilteredStays) {
     View view = disc_before_wall([](float share, int x, int y) {
         if (x == 24 && y < 18) return share * 2 + (1 - share) * 10;

@@ -66,7 +66,7 @@ TEST(Flatten, TenThousandThinSamplesAddUp) {
 TEST(Flatten, IdsAreThoseOfTheFront) {
     Ldi ldi = ldi_of({{{.z = 1, .alpha = 0.5f}, {.z = 2}}, {}, {{.z = 3}}});
     ldi.channels.push_back({"id", PixelType::uint32});
-    const float odd = std::bit_cast<float>(0xff800001u); // a NaN if taken for a number
+    const float odd = std::bit_cast<float>(0xff800001u); // a NaN if read as a number
     ldi.values.push_back({odd, 7, 8});
     const Image picture = flatten(ldi);
     EXPECT_EQ(std::bit_cast<std::uint32_t>(picture.plane(4)[0]), 0xff800001u);
@@ -74,7 +74,7 @@ TEST(Flatten, IdsAreThoseOfTheFront) {
     EXPECT_EQ(picture.plane(4)[2], 8);
 }
 
-// Each alone is less than a float of 1 can tell; in all they are not.
+// Each light alone is below the resolution of a float near 1; their sum is not.
 TEST(Flatten, ThousandsOfFaintLightsAddUp) {
     TestPixel pixel{{.z = 1, .colour = 1, .alpha = 0}};
     for (int i = 0; i < 4096; ++i) pixel.push_back({.z = float(2 + i), .colour = 3e-8f, .alpha = 0});

@@ -1,4 +1,4 @@
-// Lights that grow before the gather: closed forms.
+// Lights that are brightened before the gather: closed forms.
 #include "deep/highlight_gain.h"
 #include "support/ldi_samples.h"
 
@@ -15,12 +15,12 @@ TEST(HighlightGain, SetsInOverTheKnee) {
     EXPECT_DOUBLE_EQ(highlight_factor(by, 4), 3); // the middle of the knee: half of the growth
     EXPECT_EQ(highlight_factor(by, 6), 5);
     EXPECT_EQ(highlight_factor(by, 1e9), 5);
-    for (double y = 0; y < 8; y += 0.01) // no step, and brighter stays brighter
+    for (double y = 0; y < 8; y += 0.01) // no step, and the order of brightness is kept
         EXPECT_NEAR(highlight_factor(by, y + 0.01), highlight_factor(by, y), 0.02) << y;
 }
 
 TEST(HighlightGain, GoesByLightWithoutCoverageAndKeepsHue) {
-    // R, G, B are colour, colour / 2, colour / 4; both samples have the same colour where they cover.
+    // R, G, B are colour, colour / 2, colour / 4; both samples have the same unpremultiplied colour.
     Ldi ldi =
         ldi_of({{{.z = 1, .colour = 20, .alpha = 1}}, {{.z = 1, .colour = 5, .alpha = 0.25f}}, {{.z = 1}}});
     const Ldi before = ldi;

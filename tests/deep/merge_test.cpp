@@ -52,7 +52,7 @@ TEST(DeepMerge, WithoutColouredAlphaAPartCoversAllColoursAlike) {
         EXPECT_EQ(both.values[find_channel(both.channels, name)], (std::vector<float>{0.5f, value})) << name;
 }
 
-// An object's samples cut out of a whole and put back make the whole.
+// Samples of an object cut out of a whole and put back give the whole.
 TEST(DeepMerge, OfDisjointSamplesIsTheWhole) {
     const Ldi whole = tidy(random_ldi({.width = 20, .height = 10}));
     std::array<std::vector<TestPixel>, 2> parts;

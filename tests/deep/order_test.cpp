@@ -22,7 +22,7 @@ TEST(Order, OfPoints) {
     EXPECT_EQ(state_of({{1, 1}}), "tidy");
     EXPECT_EQ(state_of({{1, 1}, {2, 2}, {INFINITY, INFINITY}}), "tidy");
     EXPECT_EQ(state_of({{2, 2}, {1, 1}}), "apart");
-    EXPECT_EQ(state_of({{1, 1}, {1, 1}}), "messy"); // neither ascends, nor lie they apart
+    EXPECT_EQ(state_of({{1, 1}, {1, 1}}), "messy"); // neither ascending nor apart
     EXPECT_EQ(state_of({{INFINITY, INFINITY}, {INFINITY, INFINITY}}), "messy");
 }
 
@@ -36,7 +36,7 @@ TEST(Order, OfVolumes) {
     EXPECT_EQ(state_of({{1, 2}, {1, 2}}), "messy");
 }
 
-// Points may lie at either end of a volume, not inside.
+// Points may be at either end of a volume, but not inside.
 TEST(Order, OfPointsAndVolumes) {
     EXPECT_EQ(state_of({{1, 1}, {1, 2}}), "tidy");
     EXPECT_EQ(state_of({{1, 2}, {1, 1}}), "apart");

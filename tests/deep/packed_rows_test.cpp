@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-// Halves, and one in `step` values that is none.
+// Halves, with a float that is not a half every `step` values.
 std::vector<float> values_with_others(std::size_t count, std::size_t step) {
     std::vector<float> values(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -71,7 +71,7 @@ TEST(PackedFloats, SpecialValuesComeBackAsTheyWere) {
 }
 
 TEST(PackedFloats, ValuesThatAreOneButForAFewTakeNextToNothing) {
-    for (const float most : {1.0f, 0.1f}) { // a half, and none
+    for (const float most : {1.0f, 0.1f}) { // a half, and not a half
         std::vector<float> values(1000, most);
         for (const std::size_t i : {0u, 1u, 2u, 500u, 999u}) values[i] = float(i) + 0.3f;
         const PackedFloats packed(values);
@@ -92,7 +92,7 @@ protected:
     static constexpr int height = 50;
     Ldi ldi = random_ldi({.seed = 7, .width = 9, .height = height, .opaque_share = 0.3, .volume_share = 0.2});
 
-    // Some rows of the LDI, by the obvious way.
+    // Some rows of the LDI, copied in the simple way.
     Ldi slow_rows(int first, int last) const {
         Ldi rows;
         rows.windows = ldi.windows;

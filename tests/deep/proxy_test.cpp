@@ -36,7 +36,7 @@ TEST(Padded, LeavesThePictureWhereItIs) {
     }
 }
 
-// The mean of the pixels that become one; beyond the data window there is nothing.
+// The mean of the pixels that become one; empty beyond the data window.
 double box_mean(const Image &image, std::size_t channel, int x, int y, int factor) {
     double sum = 0;
     for (int v = y * factor; v < (y + 1) * factor; ++v)
@@ -63,7 +63,7 @@ TEST(Proxy, FlattensToTheMean) {
 }
 
 TEST(Proxy, KeepsWhatIsHidden) {
-    // A wall behind a card that hides all of it: both are there.
+    // A wall behind a card that hides all of it: the proxy keeps both.
     const Ldi ldi = make_ldi(windows_of_size(4, 4), rgba_channels(), [](int, int) {
         return std::vector<Sample>{{2, {1, 0, 0, 1}}, {8, {0, 0.5f, 0, 1}}};
     });
@@ -75,8 +75,8 @@ TEST(Proxy, KeepsWhatIsHidden) {
     EXPECT_NEAR(out.dx[0], 0, 1e-6);
 }
 
-// By a lens, what it moves apart by the tolerance at most is one surface, as far as the mean of their inverse depths says; and
-// the light of a sample may be dimmed, but not its coverage.
+// With a lens, samples that it moves apart by at most the tolerance become one surface, at the mean of their inverse
+// depths. The light of a sample may be dimmed, but not its coverage.
 TEST(Proxy, IsMadeForALens) {
     const double scale = lens.radius * lens.focal_px;
     const auto made = [&](double apart) {
@@ -95,8 +95,8 @@ TEST(Proxy, IsMadeForALens) {
     EXPECT_NEAR(two.values[0][0] + (1 - two.values[3][0]) * two.values[0][1], 0.75f, 1e-6);
 }
 
-// What is joined is one surface, at the mean of its inverse depths, also before and behind another one between its samples; and the
-// picture stays the mean of the large one.
+// Joined samples form one surface, at the mean of its inverse depths, even with another surface between its samples;
+// and the picture stays the mean of the large one.
 TEST(Proxy, KeepsTogetherWhatIsJoined) {
     const double scale = lens.radius * lens.focal_px;
     const Ldi ldi = make_ldi(windows_of_size(2, 2), rgba_channels(), [&](int x, int y) {
@@ -112,7 +112,7 @@ TEST(Proxy, KeepsTogetherWhatIsJoined) {
     EXPECT_NEAR(flatten(out).at(0, 0, 0), 0.5, 1e-3);
 }
 
-// A pixel of CoC -3.5 and 2, one of CoC 0.9 and one that is sharp, 20 pixels apart: each spreads by its own.
+// A pixel of CoC -3.5 and 2, one of CoC 0.9 and a sharp one, 20 pixels apart: each spreads by its own CoC.
 TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
     Windows windows = moved(30, 10, 41, 1);
     windows.display = Imath::Box2i({0, 0}, {99, 12});

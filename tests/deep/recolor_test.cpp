@@ -1,4 +1,5 @@
-// Deep samples with the colours of a flat picture: closed forms, and a picture composited again by the slow composite.
+// Deep samples with the colours of a flat picture: closed forms, and a picture composited again with the slow
+// composite.
 #include "base/coverage.h"
 #include "deep/flatten.h"
 #include "deep/order.h"
@@ -85,7 +86,7 @@ TEST(Recolor, LightWithoutSamplesIsAtInfinity) {
     EXPECT_EQ(value(sky.ldi, "A", 0), 1);
     EXPECT_EQ(value(glow.ldi, "A", 0), 0);
     EXPECT_EQ(sky.differ, 1U);
-    EXPECT_EQ(glow.differ, 0U); // coverage agrees: none
+    EXPECT_EQ(glow.differ, 0U); // coverages agree: none differ
 }
 
 TEST(Recolor, LightOfNoCoverageGoesToWhatCovers) {
@@ -118,7 +119,7 @@ TEST(Recolor, WithoutCoverageInTheDeepPictureSamplesAreOpaque) {
     const Recolored made = recolor(ldi, flat_pixel(0.5f, 1));
     EXPECT_EQ(value(made.ldi, "A", 0), 1);
     EXPECT_EQ(value(made.ldi, "R", 0), 0.5f);
-    EXPECT_EQ(value(made.ldi, "R", 1), 0.5f); // as what hides it
+    EXPECT_EQ(value(made.ldi, "R", 1), 0.5f); // the value of the sample that hides it
     EXPECT_EQ(value(made.ldi, "id", 1), 6);
 }
 

@@ -59,7 +59,7 @@ TEST(RoundForLens, KeepsAPixelTidyWhoseSamplesLieSideBySide) {
         const Ldi before = ldi;
         round_for_lens(ldi, scale);
         EXPECT_TRUE(order_of(ldi).sorted && order_of(ldi).apart);
-        EXPECT_EQ(ldi.z, before.z); // all or none of a pixel, the second one is infinite
+        EXPECT_EQ(ldi.z, before.z); // only whole pixels, and the second sample is infinite
     }
 }
 

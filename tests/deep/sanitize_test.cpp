@@ -25,7 +25,7 @@ bool same(const View &a, const View &b) { return a.z == b.z && a.image.values ==
 
 TEST(InvalidValues, GoodPicturesAreLeftAlone) {
     View view = random_view(windows_of_size(40, 20), {0, 0}, 1);
-    view.image.values[3] = -5; // out of the gamut, but a colour
+    view.image.values[3] = -5; // outside the gamut, but a valid colour
     view.image.values[7] = 1e30f;
     for (std::size_t i = 0; i < view.z.size(); ++i)
         if (view.image.plane(3)[i] == 0) view.z[i] = inf;
@@ -55,7 +55,7 @@ TEST(InvalidValues, BadPixelsDoNotFillEachOther) {
                           [&](int x, int) { return ViewPixel{.z = 4, .r = x == 2 ? 0.5f : nan}; });
     EXPECT_EQ(sanitize(view).colours, 2u);
     EXPECT_EQ(view.image.at(0, 1, 0), 0.5f);
-    EXPECT_EQ(view.image.at(0, 0, 0), 0.0f); // its only neighbour was as bad
+    EXPECT_EQ(view.image.at(0, 0, 0), 0.0f); // its only neighbour was bad too
 }
 
 TEST(InvalidValues, AlphaIsClampedAndCountedBeyondRounding) {

@@ -1,4 +1,4 @@
-// Ldi::solid goes with its samples through whatever sorts, merges and drops them.
+// Ldi::solid stays with its samples when they are sorted, merged and dropped.
 #include "deep/build.h"
 #include "deep/cluster.h"
 #include "deep/merge.h"
@@ -59,7 +59,8 @@ TEST(Solid, OfOtherPicturesIsNotKnown) {
 }
 
 TEST(Solid, IsTheLeastOfWhatIsMerged) {
-    EXPECT_EQ(clustered(solid(ldi_of({{{.z = 2}, {.z = 3}}}), {.4f, .3f})).solid, Floats{.4f}); // which hides
+    EXPECT_EQ(clustered(solid(ldi_of({{{.z = 2}, {.z = 3}}}), {.4f, .3f})).solid,
+              Floats{.4f}); // of the front
     EXPECT_EQ(clustered(solid(ldi_of({{{.z = 2, .alpha = .6f}, {.z = 3}}}), {.4f, .3f})).solid, Floats{.3f});
     EXPECT_EQ(clustered(solid(ldi_of({{{.z = 2, .alpha = .2f}, {.z = 3}}}), {0, .3f})).solid, Floats{.3f});
     const Ldi four = ldi_of({{{.z = 2}}, {{.z = 2}}, {{.z = 2}}, {{.z = 2}}});

@@ -1,4 +1,4 @@
-// Deep files of others, where they are at hand: read, made tidy, clustered, written, flattened.
+// Deep files by others, if they are there: read, tidied, clustered, written, flattened.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/order.h"
@@ -29,7 +29,7 @@ std::size_t most_samples(const Ldi &ldi) {
     return most;
 }
 
-// Half ulps of the value that the picture may differ by: one for each layer stored, and what float loses.
+// The allowed difference in half ulps of the value: one for each stored layer, and the loss by float arithmetic.
 void expect_close(const Image &a, const Image &b, double half_ulps) {
     ASSERT_EQ(a.values.size(), b.values.size());
     double worst = 0;

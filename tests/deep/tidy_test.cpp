@@ -94,7 +94,7 @@ TEST(Tidy, SplitsLightWithoutCoverageByLengthAndTheOpaqueNotAtAll) {
     }
 }
 
-// Two fogs in one place: optical depths add, and each gives its colour by its share of them.
+// Two fogs in one place: optical depths add up, and each gives its colour by its share of them.
 TEST(Tidy, MergesVolumesInOnePlace) {
     const TestPixel p = tidied({{.z = 2, .colour = 0.5f, .alpha = 0.5f, .z_back = 4, .weight = 2},
                                 {.z = 2, .colour = 0.0f, .alpha = 0.75f, .z_back = 4, .weight = 3}});
@@ -122,11 +122,11 @@ TEST(Tidy, MergesPointsOfOneDepth) {
         tidied({{.z = 2, .colour = 0.5f, .alpha = 0.5f}, {.z = 2, .colour = 0.25f, .alpha = 0.5f}});
     ASSERT_EQ(half.size(), 1u);
     EXPECT_NEAR(half[0].alpha, 0.75, 1e-7);
-    EXPECT_NEAR(half[0].colour, 0.75 * 0.75, 1e-7); // both as bright as their ratio's mean, 3/4
+    EXPECT_NEAR(half[0].colour, 0.75 * 0.75, 1e-7); // both have the mean ratio, 3/4
     const TestPixel opaque =
         tidied({{.z = 2, .colour = 3}, {.z = 2, .colour = 0.3f, .alpha = 0.5f}, {.z = 2, .colour = 5}});
     ASSERT_EQ(opaque.size(), 1u);
-    EXPECT_EQ(opaque[0].colour, 4); // the opaque ones share the place
+    EXPECT_EQ(opaque[0].colour, 4); // the opaque samples share the place
     EXPECT_EQ(opaque[0].alpha, 1);
     const TestPixel light = tidied({{.z = 2, .colour = 3, .alpha = 0}, {.z = 2, .colour = 4, .alpha = 0}});
     ASSERT_EQ(light.size(), 1u);
@@ -211,7 +211,7 @@ TEST(Tidy, WithoutAlphaEverythingIsOpaque) {
 }
 
 TEST(Tidy, APixelBecomesTheSameWhateverTheOthersHold) {
-    // Higher than the rows that are worked on at once; most pixels have samples of equal depth, some have none.
+    // Higher than the rows processed at once; most pixels have samples of equal depth, some have none.
     const Ldi ldi = random_ldi({.seed = 3, .width = 9, .height = 150, .shuffled = true, .depths = 8});
     const Ldi whole = tidy(ldi);
     EXPECT_LT(whole.samples(), ldi.samples());

@@ -18,7 +18,7 @@ TEST(Unmix, FindsTheShareOfTheFirst) {
     for (const double share : {0.05, 0.25, 0.45, 0.55, 0.75, 0.95}) {
         const auto mix = unmix(mixed(share, red, green), red, green, share < 0.5 ? mostly_b : mostly_f, 0.1);
         ASSERT_TRUE(mix) << share;
-        EXPECT_NEAR(mix->share, share, 0.005); // "not mixed" has a say
+        EXPECT_NEAR(mix->share, share, 0.005); // "not mixed" counts a little
         EXPECT_LT(mix->residual, 0.005);
     }
 }
@@ -34,7 +34,7 @@ TEST(Unmix, SaysHowFarTheColourIsFromTheLine) {
     V3d c = mixed(0.4, red, green);
     const V3d contrast = red - green;
     const double size = std::sqrt(contrast.dot(contrast));
-    // At a right angle to the line: it has little blue.
+    // At a right angle to the line, because it has little blue.
     const double along = contrast[2] / size;
     c += 0.15 * (V3d(0, 0, size) - along * contrast) / std::sqrt(1 - along * along);
     const auto mix = unmix(c, red, green, mostly_b, 0.2);
@@ -56,7 +56,7 @@ TEST(Unmix, LeavesLightInFront) {
 TEST(Unmix, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(unmix(red, red, red, mostly_f, 0.2));
     EXPECT_FALSE(unmix(red, red, green, mostly_f, 0.2));   // not mixed
-    EXPECT_FALSE(unmix(green, red, green, mostly_b, 0.2)); // nor this
+    EXPECT_FALSE(unmix(green, red, green, mostly_b, 0.2)); // not mixed either
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         const V3d wrong{0.5, bad, 0}, half = mixed(0.5, red, green);
         EXPECT_FALSE(unmix(wrong, red, green, mostly_b, 0.2));

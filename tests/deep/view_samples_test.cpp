@@ -28,7 +28,7 @@ TEST(ViewSamples, PixelsThatShowSomethingAreSamples) {
     }
 }
 
-// From any pixel on, across words of 64.
+// From any pixel on, across words of 64 pixels.
 TEST(ViewSamples, RunsOfPixelsAreAsPixelByPixel) {
     const View view = random_view(windows_of_size(50, 10), {0, 0}, 4);
     ViewSamples samples(view, view.image.channels);
@@ -81,7 +81,7 @@ TEST(ViewSamples, PixelsThatAreTakenAreTheSame) {
     EXPECT_EQ(taken.values, seen.values);
 }
 
-// Slowly and obviously: each pixel's samples in a list of its own.
+// Slow and simple: each pixel's samples are in a list of their own.
 TEST(ViewSamples, ReplacedPixelsHaveTheirNewSamplesAndTheOthersTheirOwn) {
     const View view =
         random_view({Imath::Box2i({0, 0}, {29, 19}), Imath::Box2i({-3, 2}, {71, 30})}, {1, 2}, 5);
@@ -89,7 +89,7 @@ TEST(ViewSamples, ReplacedPixelsHaveTheirNewSamplesAndTheOthersTheirOwn) {
     const Ldi before = samples.as_ldi();
     const std::size_t moved = view.image.windows.index(11, 7);
     if (!samples.pixel(moved).empty()) samples.set_z(samples.pixel(moved).front(), 77);
-    const auto number_of = [&](std::size_t pixel) { // of samples that take the place of others; 0: none do
+    const auto number_of = [&](std::size_t pixel) { // number of replacing samples; 0: not replaced
         return before.pixel(pixel).empty() || pixel == moved ? 0 : pixel % 4 == 3 ? pixel / 4 % 3 : 0;
     };
     samples.replace([](std::size_t pixel) { return pixel % 4 == 3; },

@@ -1,4 +1,4 @@
-// Views take the colours of denoised pictures: layer by layer, by name, and in spite of other orders of channels.
+// Views take the colours of denoised pictures: layer by layer, by name, with any order of channels.
 #include "base/error.h"
 #include "denoised/denoised_views.h"
 #include "support/views.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr double focal_px = 100, radius = 0.06;
 const Windows windows = windows_of_size(40, 30);
 
-// Before two planes, each pixel brighter or darker by up to a fifth.
+// Two planes; each pixel is brighter or darker by up to a fifth.
 TwoPlanes scene(float noise) {
     TwoPlanes planes;
     planes.front_covers = [](double x, double) { return x < 12; };
@@ -21,7 +21,7 @@ TwoPlanes scene(float noise) {
     return planes;
 }
 
-// With a layer of light and one of data beside the beauty.
+// Adds a layer of light and one of data beside the beauty.
 std::vector<View> with_layers(std::vector<View> views) {
     for (View &view : views) {
         Image image(windows, view.image.channels);
@@ -107,7 +107,7 @@ TEST(DenoisedViews, APictureOfBothIsParted) {
     EXPECT_EQ(parted.image.channels, clean.image.channels);
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_TRUE(std::ranges::equal(parted.image.plane(c), noisy.image.plane(c))) << c;
-    EXPECT_THROW(part_denoised(view, "Noisy Image"), Error); // it is gone
+    EXPECT_THROW(part_denoised(view, "Noisy Image"), Error); // it was removed
 }
 
 void expect_error(const std::vector<View> &views, const std::vector<DenoisedPicture> &denoised,

@@ -1,4 +1,4 @@
-// What denoised views get back: details that all views show, small lamps; neither noise nor fireflies.
+// Denoised views regain details that all views show, and small lamps, but not noise or fireflies.
 #include "denoised/kept_details.h"
 #include "finish/synthetic.h"
 
@@ -14,7 +14,7 @@ const Grid grid(61, 45);
 constexpr double focal_px = 60, radius = 0.1;
 const Imath::V2d places[] = {{0, 0}, {radius, 0}, {0, radius}, {-radius, 0}, {0, -radius}};
 
-// A plane at one depth before five cameras, or before the first of them; noisy and denoised pictures are set by the test.
+// A plane at one depth before five cameras, or before the first one; the test sets noisy and denoised pictures.
 class Views {
 public:
     explicit Views(float depth, std::size_t count = 5) : z_(grid.size(), depth) {
@@ -23,7 +23,7 @@ public:
             views.push_back({grid, z_, ViewMapping(places[v], focal_px, windows), {}, {}});
     }
 
-    // The denoised picture, with what is kept of the noisy one.
+    // The denoised picture with the details kept from the noisy one.
     Colours taken(std::size_t at) const {
         std::vector<Colours> details;
         for (const DenoisedLayer &view : views) details.push_back(details_of(view));
@@ -78,7 +78,7 @@ TEST(KeptDetails, AreNearerToTheTruthThanEither) {
     EXPECT_LT(error, 0.5 * squared_error(all.views[0].denoised, truth));
 }
 
-// Seen from the other cameras it lies elsewhere: whole pixels away, or between two pixels.
+// The other cameras see it elsewhere: whole pixels away, or between two pixels.
 TEST(KeptDetails, ALampOfLessThanAPixelStays) {
     for (const float parallax : {3.0f, 2.5f}) {
         Views all(float(focal_px * radius) / parallax);
@@ -88,8 +88,7 @@ TEST(KeptDetails, ALampOfLessThanAPixelStays) {
             const Imath::V2d at =
                 all.views[v].mapping.in_view({30.5, 20.5}, double(parallax) / (focal_px * radius));
             const int x = int(std::floor(at.x - 0.25)), y = int(std::floor(at.y - 0.25));
-            for (Values &channel :
-                 all.views[v].noisy) { // half of it in each of two pixels where it lies between them
+            for (Values &channel : all.views[v].noisy) { // half in each of two pixels if it lies between them
                 const bool between = parallax == 2.5f && v > 0;
                 channel[grid.index(x, y)] += between ? 50.0f : 100.0f;
                 if (between) channel[grid.index(x + (v % 2 == 1), y + (v % 2 == 0))] += 50.0f;

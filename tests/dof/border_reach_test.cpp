@@ -1,4 +1,4 @@
-// How much overscan a picture needs: closed forms of one plane.
+// The overscan that a picture needs: closed forms for one plane.
 #include "dof/border_reach.h"
 #include "support/lens_ldi.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
-// A grey plane of CoC c, with a lamp in one pixel, over a display window of 40 x 30 with so many pixels of overscan.
+// A grey plane of CoC c, with a lamp in one pixel, over a display window of 40 x 30 with `overscan` pixels of overscan.
 Ldi plane(double c, int overscan, const Imath::V2i &lamp = {20, 15}) {
     Windows windows = windows_of_size(40, 30);
     windows.data.min -= Imath::V2i(overscan);
@@ -20,8 +20,8 @@ Ldi plane(double c, int overscan, const Imath::V2i &lamp = {20, 15}) {
     });
 }
 
-// Squeezed to 1/2, the lens is twice as wide; colours spread by their own CoC; a picture magnified by 1.1 shows 1.3 of 15
-// rows less above and below.
+// Squeezed to 1/2, the lens is twice as wide. Colours spread by their own CoC. A picture magnified by 1.1 needs 1.3 of
+// 15 rows less above and below.
 TEST(BorderReach, IsUpToTheLooks) {
     const auto needed = [](const LensLooks &looks) {
         return border_reach(plane(4.7, 0), lens, looks).needed;
@@ -58,14 +58,14 @@ TEST(BorderReach, IsAskedOfEachSideByItself) {
     high.pixel_aspect = 2;
     EXPECT_FALSE(border_reach(wide, high).too_little());
     EXPECT_EQ(border_reach(wide, high).needed, 10);
-    wide.windows.display.min.x -= 5; // 5 pixels beside it
+    wide.windows.display.min.x -= 5; // 5 pixels there
     EXPECT_FALSE(border_reach(wide, high).too_little());
-    wide.windows.display.max.y += 3; // 7 below
+    wide.windows.display.max.y += 3; // 7 pixels below
     const BorderReach reach = border_reach(wide, high);
     EXPECT_TRUE(reach.too_little());
     EXPECT_EQ(reach.needed, 10);
     EXPECT_EQ(reach.rendered, 7);
-    wide.windows.display.min.x -= 1; // 4 beside it, where 5 are needed: less is missing than below
+    wide.windows.display.min.x -= 1; // 4 pixels there, 5 needed: less is missing than below
     EXPECT_EQ(border_reach(wide, high).rendered, 7);
     wide.windows.display.max.y -= 3;
     EXPECT_EQ(border_reach(wide, high).rendered, 4);

@@ -1,4 +1,4 @@
-// A holdout that is out of focus, too: the picture and the holdout's own share add up to the scene of both.
+// A holdout that is out of focus too: the picture and the holdout's own share add up to the scene of both.
 #include "deep/merge.h"
 #include "deep/tidy.h"
 #include "dof/defocused_holdout.h"
@@ -36,7 +36,7 @@ TEST(DefocusedHoldout, AndItsOwnShareAddUpToTheScene) {
     for (const GatherMethod &method : gather_methods()) {
         const Image both = gather(scene, method, windows.data);
         const Image held = without_holdout(gather(with_holdout(wall, front), method, windows.data));
-        // The front is in front of all else, so nothing takes from its own share: the wall alone is held out by it.
+        // The front object is in front of everything, so nothing reduces its own share; it holds out only the wall.
         const Image own = without_holdout(gather(with_holdout(front, wall), method, windows.data));
         ASSERT_EQ(held.channels, wall.channels);
         for (std::size_t k = 0; k < 4; ++k)
@@ -45,7 +45,7 @@ TEST(DefocusedHoldout, AndItsOwnShareAddUpToTheScene) {
     }
 }
 
-// Sharp, the edge of the holdout lies at one pixel; out of focus it is as wide as its blur.
+// A sharp holdout has an edge at one pixel; out of focus the edge is as wide as its blur.
 TEST(DefocusedHoldout, HasTheBlurOfItsDepth) {
     const Windows windows = windows_of_size(60, 12);
     const Ldi wall = card(windows, 5, 0, 60, {1, 1, 1, 1}), front = card(windows, 3, 0, 30, {1, 1, 1, 1});

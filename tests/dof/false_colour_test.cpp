@@ -17,7 +17,7 @@ Imath::V3f colour_at(const Image &image, int x, int y) {
     return {image.at(0, x, y), image.at(1, x, y), image.at(2, x, y)};
 }
 
-// One row; pixel x has its samples at these depths, of brightness 1.
+// One row; pixel x has samples of brightness 1 at these depths.
 Ldi row(const std::vector<std::vector<double>> &depths) {
     return make_ldi(windows_of_size(int(depths.size()), 1), rgba_channels(), [&](int x, int) {
         std::vector<Sample> samples;
@@ -61,7 +61,7 @@ TEST(FalseColour, LayersAreCounted) {
 
 TEST(FalseColour, TilesShowTheirLensPoints) {
     const LensTiles tiles{.size = 2, .columns = 3, .rows = 2, .lens_points = {0, 16, 256, 4096, 0, 64}};
-    Windows windows = windows_of_size(5, 3); // the last column and row are cut
+    Windows windows = windows_of_size(5, 3); // the last column and row are partial blocks
     windows.data = {{10, -3}, {14, -1}};
     const Image image = tile_colours(tiles, windows);
     EXPECT_EQ(colour_at(image, 10, -3), Imath::V3f(0, 0, 0));
@@ -72,7 +72,8 @@ TEST(FalseColour, TilesShowTheirLensPoints) {
     EXPECT_EQ(histogram(tiles), (std::map<int, int>{{0, 2}, {16, 1}, {64, 1}, {256, 1}, {4096, 1}}));
 }
 
-// What the gather says it chose: nothing for tiles in focus, which are copied; the number asked for elsewhere.
+// The number of lens points that the gather reports: nothing for tiles in focus, which are copied; the requested number
+// elsewhere.
 TEST(LensTiles, SayWhatTheGatherChose) {
     const Windows windows = windows_of_size(200, 70); // 4 x 2 tiles
     const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int) {

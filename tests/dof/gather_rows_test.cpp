@@ -21,7 +21,8 @@ PackedRows packed(const Ldi &ldi) {
     return rows;
 }
 
-// Stairs that come and go, hair, holes, small lamps, and strips that are hardly lamps: links, partial samples, fillers and highlights.
+// Interrupted stairs, hair, holes, small lamps, and strips that are hardly lamps: gives links, partial samples, fillers
+// and highlights.
 std::vector<Sample> scene(int x, int y) {
     const auto random = [&](std::uint32_t stream) { return float(random_unit(x, y, stream)); };
     std::vector<Sample> samples;
@@ -69,7 +70,7 @@ protected:
 
 TEST_F(GatherRows, OneRowOfTilesAtATimeGivesTheSameBits) {
     const RowReach reach = reach_of(packed(ldi), lens, {});
-    EXPECT_LT(64 + 2 * (reach.seen + reach.prepared), height); // else a band would need all rows
+    EXPECT_LT(64 + 2 * (reach.seen + reach.prepared), height); // otherwise a band needs all rows
     expect_same(window);
     EXPECT_GT(*std::ranges::max_element(tiles.lens_points), 0);
 }
@@ -81,7 +82,7 @@ TEST_F(GatherRows, BlurFarWiderThanTheCellsAroundIsTheSame) {
     const RowReach reach = reach_of(packed(ldi), lens, {});
     for (const int first : {0, higher - 128}) {
         window = {{0, first}, {7, first + 127}};
-        EXPECT_LT(128 + reach.seen + reach.prepared, higher); // else a band would need all rows
+        EXPECT_LT(128 + reach.seen + reach.prepared, higher); // otherwise a band needs all rows
         expect_same(window);
     }
 }
@@ -101,7 +102,7 @@ TEST_F(GatherRows, APartOfThePictureIsThatOfTheWhole) {
     expect_same({{4, 180}, {width - 5, 300}});
 }
 
-// A bar that the frame cuts off ends as another does, 92 rows of the picture away, and 276 of the LDI.
+// A bar that the frame cuts off ends as another one does, 92 rows of the picture away, which are 276 rows of the LDI.
 TEST_F(GatherRows, SubPixelsKnowAsManyRowsOfThePictureAtTheFrame) {
     ldi = make_ldi(windows_of_size(width, height), rgba_channels(), [](int x, int y) {
         const int from_frame = x < width / 2 ? y : height - 1 - y;
@@ -159,7 +160,7 @@ TEST_F(GatherRows, LayersAreMergedAsTheyAreAtOnce) {
     expect_same(window);
 }
 
-// Seen from so far that some lens points look farther beyond the frame by one layer than by the merged ones, in cells.
+// Wide enough that in cells some lens points look farther beyond the frame at one layer than at the merged ones.
 TEST_F(GatherRows, LayersAreMergedAtOnceAsTheyAreWhileTheyAreRead) {
     const auto dense = std::ranges::find(deep_scenes(), std::string_view("dense"), &DeepScene::name);
     ldi = dense->make(width, 300);

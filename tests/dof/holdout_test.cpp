@@ -1,4 +1,4 @@
-// A picture held out by another: by the closed forms of one surface in front of another.
+// A picture with a holdout, compared with the closed forms of one surface in front of another.
 #include "deep/flatten.h"
 #include "deep/holdout.h"
 #include "dof/lens/lens_gather.h"
@@ -15,7 +15,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 const std::vector<Channel> alone{{"A"}};
 
-// Cards of these depths and coverages in the left half.
+// Cards with these depths and coverages in the left half.
 Ldi cards(const Windows &windows, const std::vector<std::pair<double, float>> &all) {
     return make_ldi(windows, alone, [&](int x, int) {
         std::vector<Sample> samples;
@@ -30,7 +30,7 @@ TEST(Holdout, HidesWhatIsBehind) {
     EXPECT_EQ(holdout.passes(0, 0, 1), 1);
     EXPECT_EQ(holdout.passes(0, 0, 2), 1); // its own depth
     EXPECT_EQ(holdout.passes(0, 0, 3), 0.5);
-    EXPECT_EQ(holdout.passes(0, 0, 4 * (1 + 1e-8)), 0.5); // by rounding
+    EXPECT_EQ(holdout.passes(0, 0, 4 * (1 + 1e-8)), 0.5); // equal up to rounding
     EXPECT_EQ(holdout.passes(1, 1, 5), 0.125);
     EXPECT_EQ(holdout.passes(1, 1, inf), 0);
     EXPECT_EQ(holdout.passes(2, 0, inf), 1);
@@ -53,7 +53,7 @@ Image gather(const Ldi &ldi, const Holdout *holdout) {
     return lens_gather(ldi, lens, ldi.windows.data, {.holdout = holdout}, silent);
 }
 
-// A wall far out of focus shows the edge of what holds it out as sharp as it is.
+// A wall far out of focus shows the edge of its holdout sharp.
 TEST(Holdout, StaysSharp) {
     const Windows windows = windows_of_size(40, 8);
     const Ldi wall = make_ldi(windows, rgba_channels(), [](int, int) {

@@ -1,4 +1,4 @@
-// What holds of the lens gather whatever the picture: checked on random LDIs.
+// Properties of the lens gather for any picture, checked on random LDIs.
 #include "base/random.h"
 #include "deep/tidy.h"
 #include "dof/lens/lens_gather.h"
@@ -30,8 +30,8 @@ double rms_difference(const Image &a, const Image &b) {
     return std::sqrt(sum / double(a.values.size()));
 }
 
-// Random samples, 0 to 3 a pixel, in the pixels of `inside`; no two at one depth. Offsets have few bits, so that they
-// are the same floats wherever the pixel lies.
+// Random samples, 0 to 3 per pixel, in the pixels of `inside`, at different depths. Offsets have few bits, so that they
+// are the same floats in any pixel.
 std::vector<Sample> random_pixel(int x, int y, std::uint32_t seed) {
     std::vector<Sample> samples;
     const auto random = [&](std::uint32_t k) { return random_unit(x, y, seed + 31 * k); };
@@ -49,7 +49,7 @@ std::vector<Sample> random_pixel(int x, int y, std::uint32_t seed) {
     return samples;
 }
 
-// A canvas on which random pixels fill [at, at + size), 0 elsewhere.
+// A canvas with random pixels in [at, at + size), 0 elsewhere.
 Ldi on_canvas(const Imath::V2i &at, std::uint32_t seed, const Imath::V2i &size = {90, 70}) {
     return make_ldi(windows_of_size(320, 224), rgba_channels(), [&](int x, int y) {
         const Imath::V2i p = Imath::V2i(x, y) - at;
@@ -63,8 +63,8 @@ Ldi random_picture(std::uint32_t seed, int width = 80, int height = 60) {
                     [&](int x, int y) { return random_pixel(x, y, seed); });
 }
 
-// A random texture with lamps on a black ground, all at one depth: whatever the blur, and near focus whatever is
-// sharpened, light is neither made nor lost.
+// A random texture with lamps on a black ground, all at one depth: no blur, and no sharpening near focus, creates or
+// loses light.
 TEST(Invariants, EnergyIsKept) {
     for (const double c : {-9.0, -3.5, -1.2, -0.6, 0.7, 1.9, 4.2, 7.0}) {
         double before = 0;
@@ -125,7 +125,7 @@ TEST(Invariants, ThreadsDoNotMatter) {
     for (const std::size_t threads : {2u, 3u, 7u}) EXPECT_EQ(with(threads), one) << threads;
 }
 
-// Without R, G, B: through the lens points alone, with neither lamps spread nor anything sharpened.
+// Without R, G, B: only lens points, without spread lamps and sharpening.
 Ldi without_colour(Ldi ldi) {
     ldi.channels = {{"X"}, {"Y"}, {"V"}, {"A"}};
     return ldi;
@@ -137,7 +137,7 @@ Image part(const Image &image, const Imath::V2i &at, const Imath::V2i &size) {
     return cut;
 }
 
-// Away from the border: what lies up to 64 pixels around tells what is a highlight.
+// Away from the border: samples up to 64 pixels away decide which are highlights.
 TEST(Invariants, MovedByWholeTilesItIsTheSamePicture) {
     const Imath::V2i margin(16), size = Imath::V2i(90, 70) + 2 * margin, at(52, 56);
     const Image expected = part(gather(on_canvas(at, 3)), at - margin, size);
@@ -147,9 +147,8 @@ TEST(Invariants, MovedByWholeTilesItIsTheSamePicture) {
     }
 }
 
-// By other distances samples fall into other blocks and tiles, which choose their lens points, their highlights and
-// what is noise to them by what they hold. Through the same lens points, without lamps and sharpening, only rounding
-// is left.
+// After a move by another distance samples fall into other blocks and tiles, which choose lens points, highlights and
+// noise by their contents. With the same lens points, without lamps and sharpening, only rounding remains.
 TEST(Invariants, MovedByWholePixelsItIsTheSamePictureToRounding) {
     const Imath::V2i margin(16), size = Imath::V2i(90, 70) + 2 * margin, at(20, 24);
     const Image expected = part(gather(without_colour(on_canvas(at, 3)), 64), at - margin, size);
@@ -182,7 +181,7 @@ Image mirrored(const Image &image) {
     return out;
 }
 
-// The lens is symmetric, its points are not: what is left of asymmetry falls as their error does.
+// The lens is symmetric but its points are not: the remaining asymmetry falls with their error.
 TEST(Invariants, AMirroredPictureIsMirrored) {
     const Ldi with_lamps = random_picture(4), without = without_colour(with_lamps);
     const auto asymmetry = [](const Ldi &ldi, int points) {
@@ -194,8 +193,8 @@ TEST(Invariants, AMirroredPictureIsMirrored) {
     EXPECT_LT(asymmetry(with_lamps, 1024), 0.7 * asymmetry(with_lamps, 64));
 }
 
-// Lamps gain less: each pixel of a disc asks one lens point whether it sees the lamp, however many there
-// are.
+// Lamps gain less, because each pixel of a disc asks one lens point whether it sees the lamp, for any number of lens
+// points.
 TEST(Invariants, FourTimesTheLensPointsAreCloserToTheTruth) {
     for (const std::uint32_t seed : {5u, 6u, 7u}) {
         const Ldi ldi = without_colour(random_picture(seed, 64, 48));

@@ -1,5 +1,5 @@
-// Further layers are defocused with the visibility of the beauty: light layers that add up to it still do, whatever
-// is done for highlights and near focus. Ids are never mixed.
+// Further layers are defocused with the visibility of the beauty: light layers that add up to it still do, with
+// highlights and near focus too. Ids are never mixed.
 #include "deep/tidy.h"
 #include "dof/methods.h"
 #include "support/lens_ldi.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr int layers = 3;
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
-// Beauty R, G, B, A and layers of the same names, which add up to it in half without rounding: multiples of 1/256.
+// Beauty R, G, B, A and layers with the same channels, which add up to it in half without rounding: multiples of 1/256.
 Ldi lit_by_layers(const Windows &windows) {
     std::vector<Channel> channels = rgba_channels();
     for (int l = 0; l < layers; ++l)
@@ -55,7 +55,7 @@ TEST(Layers, AddUpToTheBeauty) {
     const Ldi ldi = lit_by_layers(windows_of_size(150, 70));
     for (const GatherMethod &method : gather_methods()) {
         const Image out = gathered(method, ldi, lens);
-        double worst = 0; // of the largest error that is allowed
+        double worst = 0; // relative to the largest allowed error
         for (std::size_t i = 0; i < out.windows.pixels(); ++i)
             for (std::size_t k = 0; k < 3; ++k) {
                 double sum = 0;
@@ -74,7 +74,7 @@ TEST(Layers, IdsAreTheFrontSamples) {
     const Ldi ldi = lit_by_layers(windows_of_size(40, 20));
     const std::size_t id = find_channel(ldi.channels, "id");
     Ldi sharp = ldi;
-    for (float &z : sharp.z) z = float(lens.focus); // CoC 0; one sample a pixel, or they were not tidy
+    for (float &z : sharp.z) z = float(lens.focus); // CoC 0; one sample per pixel, because they may be untidy
     const Ldi tidied = tidy(sharp);
     for (const GatherMethod &method : gather_methods())
         for (const Ldi &in : {ldi, tidied}) {

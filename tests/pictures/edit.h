@@ -15,7 +15,7 @@ Imath::Box2i window_of(const std::string &text);
 Picture blank(const Imath::Box2i &window);
 
 // The words are applied in order:
-//   NAME=VALUE          the channel's value everywhere; makes a channel of floats if there is none. VALUE may be inf, nan
+//   NAME=VALUE          the channel's value everywhere; a new one has floats. VALUE may be inf or nan
 //   NAME=LEFT..RIGHT    a linear ramp from the left column to the right one
 //   NAME=noise:SEED     random, from 0 to 1
 //   NAME*=VALUE         multiplies by that

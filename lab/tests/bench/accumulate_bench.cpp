@@ -7,7 +7,7 @@
 namespace sparselens {
 namespace {
 
-// One more RGBA view.
+// Adds one RGBA view.
 void add_view(benchmark::State &state) {
     const int width = int(state.range(0)), height = width * 9 / 16;
     Image view(windows_of_size(width, height), rgba_channels());

@@ -1,4 +1,4 @@
-// A picture of many surfaces through the scatter.
+// Times the scatter on a picture of many surfaces.
 #include "bench/opened_lens.h"
 #include "lab/methods/scatter.h"
 

@@ -1,4 +1,4 @@
-// The tracer in packets beside its slow reference, and the price of a camera ray with all that belongs to it.
+// Times the tracer in packets beside its slow reference, and a camera ray with all its shading.
 #include "base/random.h"
 #include "lab/tests/trace/brute_force.h"
 #include "lab/tests/trace/small_scenes.h"
@@ -8,7 +8,7 @@
 namespace sparselens::lab {
 namespace {
 
-// Rays of a row of pixels, 16 lens points each, as similar to each other as those of a reference.
+// Rays of a row of pixels, with 16 lens points each, as similar to each other as those of a reference.
 std::vector<Ray> rays_of_a_row() {
     const RenderSettings settings = settings_of_size(640, 360);
     std::vector<Ray> rays;

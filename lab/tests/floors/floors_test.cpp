@@ -1,4 +1,4 @@
-// The whole way from views to the picture is as good as it was: floors.h.
+// Tests that the whole chain from views to the picture is at least as good as floors.h says.
 #include "base/subpixels.h"
 #include "deep/edge_depths.h"
 #include "deep/tidy.h"
@@ -47,7 +47,7 @@ Image gather(const Ldi &ldi, const SceneCamera &scene, Quality quality = Quality
 
 std::vector<View> views_of(const SceneCamera &scene, int samples = 16) {
     std::vector<View> views = scene.five_views(samples);
-    for (View &view : views) settle_edge_depths(view); // as where they are read
+    for (View &view : views) settle_edge_depths(view); // as when they are read
     return views;
 }
 
@@ -59,7 +59,7 @@ Ldi warped(const std::vector<View> &views, const SceneCamera &scene, int across 
                 silent);
 }
 
-// From five views of twice the size, at normal quality.
+// Five views of twice the size, at normal quality.
 constexpr int twice = 2;
 Image doubled(const SceneCamera &scene) {
     const Ldi ldi = warped(views_of(scene, 16 / (twice * twice)), scene, twice);
@@ -98,7 +98,7 @@ TEST_P(Floors, Hold) {
                 now.five_views.border, now.one_view.inside, now.one_view.border, now.least_alpha);
     expect_no_worse(now.five_views, measured.five_views);
     expect_no_worse(now.one_view, measured.one_view);
-    EXPECT_GE(now.least_alpha, measured.least_alpha - 1e-4); // of float sums of weights: section 3
+    EXPECT_GE(now.least_alpha, measured.least_alpha - 1e-4); // rounding of float sums of weights: section 3
     if (now.scene == std::string_view("macro")) expect_relief(five, reference);
 }
 
@@ -122,7 +122,7 @@ TEST_P(DoubledFloors, Hold) {
 
 INSTANTIATE_TEST_SUITE_P(All, DoubledFloors, testing::ValuesIn(measured_doubled), name_of);
 
-// So far out of focus that each tile is gathered in cells.
+// Focused so that each tile is gathered in cells.
 SceneCamera far_out_of_focus(int times) {
     SceneCamera scene("fence", 240 * times, 135 * times);
     scene.settings.lens.radius = 0.15;

@@ -19,7 +19,7 @@ using Line = std::vector<double>;
 
 double at(const Line &line, int i) { return line[std::size_t(std::clamp(i, 0, int(line.size()) - 1))]; }
 
-// Colella and Woodward's parabola of pixel i as they write it: its values at both edges, with their three cases.
+// Colella and Woodward's parabola of pixel i in their notation: its values at both edges, with their three cases.
 struct Parabola {
     double left, right, mean;
 
@@ -169,8 +169,8 @@ TEST(Accumulate, EqualWeightsOverTheViewsThatCoverAPixel) {
     std::ranges::fill(bright.values, 4.0f);
     Accumulation sum = start_accumulation(dark.windows, dark.channels);
     accumulate(sum, dark, {0, 0}, "dark.exr");
-    accumulate(sum, bright, {2.4, 0}, "bright.exr"); // covers from x = 2 on: 2.5 >= 2.4
-    accumulate(sum, bright, {0, -1.5}, "up.exr");    // covers y + 0.5 < 6 - 1.5
+    accumulate(sum, bright, {2.4, 0}, "bright.exr"); // covers pixels from x = 2 on: 2.5 >= 2.4
+    accumulate(sum, bright, {0, -1.5}, "up.exr");    // covers pixels with y + 0.5 < 6 - 1.5
     const Image result = average(sum);
     EXPECT_EQ(result.at(0, 1, 0), 2.5f);
     EXPECT_EQ(result.at(0, 2, 0), 3);
@@ -249,9 +249,9 @@ TEST(Accumulate, BadValuesAreFilledFromTheirNeighboursAndCounted) {
     Image image(windows_of_size(4, 2), {{"R"}, {"Z", PixelType::float32}});
     image.values = {1, nan, inf, 3, 5, 6, 7, 8, inf, inf, inf, inf, inf, inf, inf, inf};
     EXPECT_EQ(fill_nonfinite(image, {{"R"}}), 2u);
-    EXPECT_FLOAT_EQ(image.values[1], (1 + 5 + 6 + 7) / 4.0f); // not from the other bad one
+    EXPECT_FLOAT_EQ(image.values[1], (1 + 5 + 6 + 7) / 4.0f); // without the other bad value
     EXPECT_FLOAT_EQ(image.values[2], (3 + 6 + 7 + 8) / 4.0f);
-    EXPECT_EQ(image.values[8], inf); // not asked for
+    EXPECT_EQ(image.values[8], inf); // its channel was not named
     EXPECT_EQ(fill_nonfinite(image, {{"R"}, {"Z"}}), 8u);
     EXPECT_EQ(image.values[8], 0);
 }
@@ -276,7 +276,7 @@ TEST(Accumulate, SameAtAnyThreadCount) {
     EXPECT_EQ(run(1).values, run(4).values);
 }
 
-// What the header says of the choice of filter: views in focus, box-filtered, moved back by what moved them.
+// Checks the header's claim about the filter: views in focus, box-filtered, and moved back by their displacement.
 TEST(Accumulate, AnEdgeInFocusStaysSharperThanLinearInterpolationMakesIt) {
     const int width = 24, views = 64;
     const double edge = 11.3;

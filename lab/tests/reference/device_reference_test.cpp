@@ -1,4 +1,4 @@
-// The kernels of the gathers against their slow references.
+// The kernels of the gathers compared with their slow references.
 #include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/selective/selective.h"
@@ -38,7 +38,7 @@ TEST_F(DeviceReferenceTest, OfTheLensGather) {
     const std::unique_ptr<TileDevice> device = open_gather_device(*info, watch());
     for (const Case &c : cases) {
         Ldi ldi = random_surfaces(windows_of_size(40, 30), lens, c.opaque, c.stream);
-        for (std::vector<float> &values : ldi.values) // no highlights: the reference spreads none
+        for (std::vector<float> &values : ldi.values) // no highlights: the reference does not spread them
             for (float &value : values) value = std::min(value, 1.0f);
         for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
             if (channel.name != "A") channel.name += "0";

@@ -12,7 +12,7 @@ namespace {
 
 const ThinLens lens{.radius = 0.625, .focal_px = 640, .focus = 5}; // R F / focus = 80 px
 
-// Up to three surfaces, steep and flat, with steps, holes and partial samples in them.
+// Up to three surfaces, steep and flat, with steps, holes and partial samples.
 Ldi random_relief(std::uint32_t seed) {
     return make_ldi(windows_of_size(40, 30), {{"Y"}, {"A"}}, [&](int x, int y) {
         std::vector<Sample> samples;
@@ -43,7 +43,7 @@ TEST(Facets, AreThoseThatAreFoundSlowly) {
                 std::ranges::sort(*facets);
             }
             EXPECT_EQ(found, slowly) << seed;
-            EXPECT_GT(found.size(), 500u) << seed; // else it proves little
+            EXPECT_GT(found.size(), 500u) << seed; // otherwise this proves little
         }
 }
 

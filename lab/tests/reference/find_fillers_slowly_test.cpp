@@ -14,7 +14,7 @@ void expect_slow(const Ldi &ldi, const Imath::Box2i &known) {
     const LargeArray<Filler> found = find_fillers(ldi, lens, known);
     const std::vector<Filler> slow = find_fillers_slowly(ldi, lens, known);
     ASSERT_EQ(found.size(), slow.size());
-    EXPECT_GT(slow.size(), 300u); // else it proves little
+    EXPECT_GT(slow.size(), 300u); // otherwise this proves little
     for (std::size_t i = 0; i < slow.size(); ++i) {
         ASSERT_EQ(found[i].pixel, slow[i].pixel);
         ASSERT_EQ(found[i].z, slow[i].z) << found[i].pixel;
@@ -33,7 +33,7 @@ TEST(FindFillersSlowly, RandomSurfaces) {
         expect_slow(random_surfaces(windows_of_size(70, 50), lens, opaque, 12), {{5, 4}, {60, 45}});
 }
 
-// Posts before a wall, whose pixels beside them mix both; in every second row they have a colour that is no mixture.
+// Posts before a wall. Pixels at their edges mix both; in every second row their colour is not a mixture.
 TEST(FindFillersSlowly, Mixtures) {
     const Ldi posts = make_ldi(windows_of_size(90, 40), rgba_channels(), [](int x, int y) {
         const bool post = x % 9 > 5, edge = x % 9 == 0 || x % 9 == 5, none = y % 2 == 1;
@@ -41,7 +41,7 @@ TEST(FindFillersSlowly, Mixtures) {
         if (edge) return std::vector<Sample>{{depth_of(lens, 4), {0.6f, none ? 0.9f : 0.3667f, 0.3333f, 1}}};
         return std::vector<Sample>{{depth_of(lens, 4), {0.5f, 0.5f, 0.5f, 1}}};
     });
-    std::array<int, 2> mixed{0, 0}; // of rows of mixtures, and of others
+    std::array<int, 2> mixed{0, 0}; // rows with mixtures, and the others
     for (const Filler &filler : find_fillers_slowly(posts, lens, posts.windows.data))
         for (const Filler::Part &part : filler.parts())
             if (part.pixel % 90 % 9 != 0 && part.pixel % 90 % 9 != 5) ++mixed[part.pixel / 90 % 2];

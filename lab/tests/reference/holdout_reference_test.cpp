@@ -1,4 +1,4 @@
-// A picture held out by another: the fast gather against the slow one.
+// A picture with a holdout: the fast gather compared with the slow one.
 #include "deep/holdout.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/tests/support/reference_picture.h"
@@ -23,7 +23,7 @@ TEST(Holdout, FastIsAsTheReference) {
     const Windows windows = windows_of_size(70, 9);
     for (const bool opaque : {true, false}) {
         Ldi ldi = random_surfaces(windows, lens, opaque, 5);
-        for (auto &values : ldi.values) // no lamps: the reference spreads no highlights
+        for (auto &values : ldi.values) // no lamps: the reference does not spread highlights
             for (float &v : values) v = std::min(v, 1.0f);
         for (Channel &channel : ldi.channels) // without names of colours nothing is sharpened
             if (channel.name != "A") channel.name = "layer." + channel.name;

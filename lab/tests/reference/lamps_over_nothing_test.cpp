@@ -1,4 +1,4 @@
-// Lamps over nothing, whose edges have the depth of the sky.
+// Lamps over nothing whose edge pixels have the depth of the sky.
 #include "base/random.h"
 #include "deep/edge_depths.h"
 #include "lab/methods/scatter.h"
@@ -17,8 +17,8 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// Lamps over nothing, seen through a lens: discs (where the centre view shows their centres, and their radius, in
-// pixels) at a depth. Half of their edge pixels have the depth of the sky, as in Cycles with a transparent film.
+// Lamps over nothing, seen through a lens: discs at a depth, with centre and radius in pixels of the centre view. Half
+// of their edge pixels have the depth of the sky, as in Cycles with a transparent film.
 struct Lamp {
     double x, y, radius, z;
 };
@@ -53,7 +53,7 @@ View lamps_from(const Imath::V2d &position) {
     });
 }
 
-// The mean of what is seen through the lens.
+// The mean of the pictures through all lens points.
 Image truth() {
     Image sum(windows_of_size(96, 96), rgba_channels());
     const auto points = spiral_lens_points(200);
@@ -91,7 +91,7 @@ TEST(EdgeDepths, LampsOverNothingKeepTheirWidth) {
             const bool empty = right.at(3, x, y) == 0;
             EXPECT_LT(picture.at(3, x, y), empty ? 0.01f : 1.001f) << x << "," << y; // no halo
         }
-    EXPECT_LT(std::sqrt(squares / (96 * 96)), 0.004); // 0.008 with the depths as they came
+    EXPECT_LT(std::sqrt(squares / (96 * 96)), 0.004); // 0.008 with unsettled depths
 }
 
 } // namespace

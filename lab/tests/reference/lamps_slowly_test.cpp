@@ -1,4 +1,4 @@
-// The light of highlights, tile by tile, is what every place in every pixel sees through the lens.
+// The light of highlights, tile by tile, equals the light that each point in each pixel sees through the lens.
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
 #include "lab/reference/lamps_slowly.h"
@@ -20,13 +20,13 @@ constexpr std::size_t red_channel = 0;
 
 struct Case {
     const char *name;
-    double lamp_coc, before_coc; // of the lamps, and about which the things before them lie
-    double partial = 0;          // share of those whose coverage is partial
-    double steep = 0;            // CoC a pixel by which a surface before them leans
+    double lamp_coc, before_coc; // CoC of the lamps, and mean CoC of the things before them
+    double partial = 0;          // share of those things with partial coverage
+    double steep = 0;            // change of CoC per pixel of a leaning surface before them
     double aspect = 1;
     bool lamps_partial = false;
-    bool hidden = true; // whether anything hides a part of them
-    double wall = 1.5;  // how much more blurred it is than the lamps
+    bool hidden = true; // whether anything hides part of them
+    double wall = 1.5;  // how much more blurred the wall is than the lamps
 };
 
 void PrintTo(const Case &c, std::ostream *out) { *out << c.name; }
@@ -35,8 +35,8 @@ ThinLens lens_of(const Case &c) {
     return {.radius = 0.12, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect};
 }
 
-// Three lamps before a dim wall; before them boards of four by five pixels at random depths, or one surface that leans, with a
-// slit.
+// Three lamps before a dim wall. Before them are boards of four by five pixels at random depths, or one leaning surface
+// with a slit.
 Ldi scene(const Case &c, const ThinLens &lens) {
     Windows windows = windows_of_size(size, size);
     windows.pixel_aspect = float(c.aspect);
@@ -59,7 +59,7 @@ Ldi scene(const Case &c, const ThinLens &lens) {
     });
 }
 
-// How many of the lamps' discs have a pixel of that place within them, in part (on their rim) or altogether.
+// The number of lamp discs that contain the pixel partly (on their rim) or fully.
 struct Discs {
     int rims = 0, whole = 0;
 };
@@ -77,7 +77,7 @@ Discs discs_at(const Case &c, const Imath::V2i &pixel) {
         const double radius = std::abs(c.lamp_coc);
         if (farthest < radius)
             ++discs.whole;
-        else if (nearest < radius + 0.1) // a rim may pass between the nine places
+        else if (nearest < radius + 0.1) // a rim may pass between the nine points
             ++discs.rims;
     }
     return discs;
@@ -114,12 +114,13 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     std::iota(blocks.begin(), blocks.end(), 0u);
     tile.spread({0, 0}, blocks);
 
-    // The tile takes the share of a rim pixel that is in the disc times the share that is lit, which is off by a quarter of it
-    // at most; and each of its shares is that of 64 points, eight in a row: an edge that crosses them is off by a sixteenth, and
-    // so is the other edge of what hides the lamp. That errs to both sides.
+    // For a rim pixel, the tile multiplies the share inside the disc by the lit share, an error of at most a quarter.
+    // Each of its shares is measured with 64 points, eight in a row: an edge that crosses them is off by a sixteenth,
+    // and so is the other edge of the object that hides the lamp. The errors have either sign.
     const double bright = 900 / (std::numbers::pi * c.lamp_coc * c.lamp_coc * c.aspect);
-    // Near the focus it takes cells of the lens, 1/32 of it wide, of 64 points each; the slow way 128 places along the lens. An edge
-    // of what hides the lamp is off by half a place, and a lamp may be hidden by two at each side: 2 %.
+    // Near the focus the tile uses cells of the lens, 1/32 of it wide, with 64 points each; the slow way uses 128
+    // points along the lens. An edge that hides the lamp is off by half a point, and two objects may hide a lamp at
+    // each side: 2 %.
     const bool near_focus = std::abs(c.lamp_coc) < 2;
     constexpr double in_cells = 0.02;
     double squares = 0, sum = 0, expected_sum = 0, unhidden = 0;
@@ -140,7 +141,7 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     }
     EXPECT_LE(std::sqrt(squares / double(expected.size())), bright / 32);
     EXPECT_NEAR(sum, expected_sum, 0.01 * expected_sum);
-    EXPECT_NEAR(unhidden, 3 * 900 * (c.lamps_partial ? 0.5 : 1), 10); // all discs lie within the picture
+    EXPECT_NEAR(unhidden, 3 * 900 * (c.lamps_partial ? 0.5 : 1), 10); // all discs are inside the picture
     EXPECT_LE(expected_sum, (c.hidden ? 0.9 : 1) * unhidden);
 }
 

@@ -1,5 +1,5 @@
-// The fast lens gather is the slow one, point for point. The channels bear no colour names: what concerns
-// highlights and sharpening, which the slow one has not, has tests of its own.
+// Compares the fast lens gather with the slow one, point for point. The channels have no colour names: highlights and
+// sharpening, which the slow one lacks, have their own tests.
 #include "dof/lens/lens_gather.h"
 #include "lab/tests/support/reference_picture.h"
 #include "support/lens_ldi.h"
@@ -15,15 +15,15 @@ struct Case {
     const char *name;
     Imath::Box2i data, window;
     double aspect = 1;
-    double partial = 0.5; // share of samples whose coverage is partial
+    double partial = 0.5; // share of samples with partial coverage
     int most_samples = 3;
     double smallest_coc = 0; // pixels
     int lens_samples = 16;
-    bool colour = false; // channels R, G, B: nothing stands out, and nothing is near focus
-    double glowing = 0;  // share of samples that give light and cover nothing
+    bool colour = false; // channels R, G, B: no highlights, and nothing is near focus
+    double glowing = 0;  // share of samples with light but no coverage
     LensLooks looks = {};
-    double images = 0; // share of samples that show an image which lies at another depth
-    double solids = 0; // share of samples that are solid, up to two pixels of perceptive depth
+    double images = 0; // share of samples with an image at another depth
+    double solids = 0; // share of solid samples, up to two pixels of perceptive depth
 };
 
 // Weights that differ for R, G and B.
@@ -37,7 +37,7 @@ ThinLens lens_of(const Case &c) {
     return {.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect};
 }
 
-// CoC -7 to 7 px, no two depths alike.
+// CoC -7 to 7 px, all depths different.
 Ldi random_layers(const Case &c, const ThinLens &lens) {
     Windows windows{c.window, c.data, float(c.aspect)};
     std::vector<Channel> channels{{"Y"}, {"A"}, {"extra.Y", PixelType::float32}};
@@ -123,7 +123,7 @@ const Case cases[] = {
 INSTANTIATE_TEST_SUITE_P(Random, LensGatherReference, testing::ValuesIn(cases),
                          [](const auto &c) { return c.param.name; });
 
-// The slow gather itself, against answers known beforehand. Of the first row:
+// Tests the slow gather itself against known answers. `seen` reads the first row:
 float seen(const ReferencePicture &picture, std::size_t channel, int x) {
     return float(picture.at(channel, x, 0).value);
 }
@@ -135,8 +135,8 @@ TEST(LensGatherReferenceItself, OneLensPointSeesThePinholePictureShifted) {
         return std::vector<Sample>{{depth_of(lens, x == 4 ? -3 : 2), {float(x)}}};
     });
     const ReferencePicture image = lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
-    // Pixels of CoC 2 move two to the right, the one in front three to the left; behind it lies the mean of what is
-    // beside it. What comes in from beyond the picture is unknown: the pixel stays as it is.
+    // Pixels of CoC 2 move two to the right, the one in front three to the left; behind it the mean of its neighbours
+    // shows. Pixels from beyond the picture are unknown: the pixel keeps its value.
     const float expected[] = {0, 4, 0, 1, 2, 3, 4, 5, 6};
     for (int x = 0; x < 9; ++x) EXPECT_EQ(seen(image, 0, x), expected[x]) << x;
 }
@@ -157,7 +157,7 @@ TEST(LensGatherReferenceItself, ImagesMoveByTheirDepthAndHideByTheMirrors) {
     const ReferencePicture image = gather(0);
     for (const int x : {4, 5, 7, 9, 10, 11}) EXPECT_EQ(seen(image, 0, x), x == 5 ? 100 : float(x - 3)) << x;
     EXPECT_EQ(seen(image, 0, 6),
-              5); // the mirror behind the bar, which no view saw: the mean of what is beside it
+              5); // the mirror behind the bar, which no view saw: the mean of its neighbours
     EXPECT_EQ(seen(gather(2), 0, 7), 4); // nearer than its image, but behind the mirror
 }
 
@@ -180,8 +180,8 @@ TEST(LensGatherReferenceItself, WhatLiesBehindCoverageCountsByWhatIsLeft) {
 
 TEST(LensGatherReferenceItself, UnknownIsLeftOut) {
     const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
-    // The middle of the lens sees what covers the pixel; the point to the left (thrice as likely) sees it moved away,
-    // and the glass in focus before it still in its place.
+    // The middle of the lens sees the sample that covers the pixel. The point to the left, with three times the weight,
+    // sees it moved away, and the glass in focus before it in the same position.
     const LensSample points[] = {{0, 0, 0, 0, 1}, {-1, 0, 0, 0, 3}};
     const auto gather = [&](bool glass) {
         const Ldi ldi = make_ldi(windows_of_size(1, 1), {{"Y"}, {"A"}}, [&](int, int) {
@@ -197,7 +197,7 @@ TEST(LensGatherReferenceItself, UnknownIsLeftOut) {
     EXPECT_FLOAT_EQ(seen(gather(true), 1, 0), 1);
 }
 
-// A plane whose neighbours part by less than half a pixel shows no crack, and a gap that the picture shows is none.
+// A plane whose neighbours part by less than half a pixel has no crack, and a gap in the picture is not a crack.
 TEST(LensGatherReferenceItself, CracksAreClosedAndGapsAreNot) {
     const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
     const LensSample right{1, 0, 0, 0, 1};
@@ -207,13 +207,13 @@ TEST(LensGatherReferenceItself, CracksAreClosedAndGapsAreNot) {
         });
         return lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
     };
-    // Pixels 1 and 2 part at pixel 2; what is seen there is the farther of them.
+    // Pixels 1 and 2 part at pixel 2, which shows the farther of them.
     const ReferencePicture crack = gather({0.2, 0.4, 0.7, 0.8, 1.1});
     EXPECT_EQ(seen(crack, 0, 1), 1);
     EXPECT_EQ(seen(crack, 0, 2), 2);
     EXPECT_EQ(seen(crack, 0, 3), 2);
-    // Through a gap one pixel wide, pixel 2, what lies behind it is not what is on either side of it: moved away, it
-    // leaves a filler that those hide, and the pixel stays as it is.
+    // Behind a gap one pixel wide, pixel 2, the background differs from its neighbours. Moved away, it leaves a filler
+    // that the neighbours hide, and the pixel keeps its value.
     EXPECT_EQ(seen(gather({0, 0, 6, 0, 0}), 0, 2), 2);
 }
 

@@ -1,4 +1,4 @@
-// What is opaque in the views lets no light through in the LDI, nor through a lens; what is not, does.
+// Opaque parts of the views pass no light in the LDI or through a lens; other parts do.
 #include "deep/flatten.h"
 #include "dof/methods.h"
 #include "lab/reference/lens_gather_reference.h"
@@ -15,8 +15,8 @@ namespace {
 
 using namespace warping;
 
-// A view of two planes with pixels that mix them, each under the depth of its middle: 4x4 points a pixel. `hollow`: there is
-// nothing behind the front one.
+// A view of two planes with pixels that mix them, each with the depth of its middle: 4x4 points per pixel. `hollow`:
+// nothing is behind the front plane.
 View antialiased(const TwoPlanes &planes, const Windows &windows, const Imath::V2d &position, bool hollow) {
     constexpr int n = 4;
     TwoPlanes fine = planes;
@@ -52,7 +52,7 @@ std::vector<View> antialiased_views(const TwoPlanes &planes, int count, bool hol
     return views;
 }
 
-// Blobs that cover some half of the picture, with edges in all directions.
+// Blobs that cover about half of the picture, with edges in all directions.
 TwoPlanes blobs(double size) {
     TwoPlanes planes;
     planes.front_covers = [size](double x, double y) {
@@ -75,7 +75,7 @@ WarpOptions splitting() {
     return options;
 }
 
-// In the frame; beyond it pixels are opaque too, or nobody saw them.
+// Inside the frame; beyond it pixels are opaque too, or unseen.
 void expect_opaque(const std::vector<View> &views) {
     const Ldi ldi = warped(views, splitting());
     const Image flat = flatten(ldi);

@@ -11,7 +11,7 @@ namespace {
 
 using Shape = PixelFilter::Shape;
 
-// Also where the data window begins within a block, and ends within one, in the display window or beyond it.
+// Includes data windows that begin or end within a block, inside the display window or beyond it.
 TEST(Subpixels, AreAsTheReferenceHasThem) {
     for (const int across : {1, 2, 3, 4})
         for (const PixelFilter &filter :

@@ -37,20 +37,20 @@ TEST(Answers, TellAtWhichRaysTheDenoiserIsBetter) {
               0);
 }
 
-// A denoiser of the views may have the better of the two: it costs them no ray either.
+// Denoised views may count as the better ones, because denoising needs no rays.
 TEST(Answers, ViewsMayBeDenoisedToo) {
     const auto all =
         answers_of({row("centre + 4", "lens normal", 5, 30), row("centre + 4 denoised", "lens normal", 5, 33),
                     row("denoised ray tracing", "", 5, 32), row("accumulated lens views", "", 5, 31)});
     EXPECT_EQ(about(all, "Denoised").losses, "nowhere");
     EXPECT_EQ(about(all, "Denoised").gains, "fence at 5 rays (up to 1.0 dB)");
-    EXPECT_EQ(about(all, "Averages").losses, "fence at 5 rays (up to 1.0 dB)"); // those as they are
+    EXPECT_EQ(about(all, "Averages").losses, "fence at 5 rays (up to 1.0 dB)"); // of plain views
 }
 
 TEST(Answers, BetweenTheBudgetsOfTheOthersTheirCurveIsTaken) {
     std::vector<ReportRow> rows = ray_tracing_rows(); // 36 dB at 16 rays, 42 at 64
     rows.push_back(row("centre + 4", "lens normal", 32, 40));
-    rows.push_back(row("centre + 4", "lens normal", 320, 50)); // nothing is known there
+    rows.push_back(row("centre + 4", "lens normal", 320, 50)); // ray tracing was not measured there
     EXPECT_EQ(about(answers_of(rows), "Ray tracing").gains, "fence at 32 rays (up to 1.0 dB)");
     EXPECT_EQ(about(answers_of(rows), "Ray tracing").losses, "nowhere");
     EXPECT_EQ(about(answers_of(rows), "note").gains.substr(0, 39), "fence: 0.25 s and no ray; ray tracing o");

@@ -93,7 +93,7 @@ TEST(Csv, ComparesEachRowWithRayTracingOfItsScene) {
     EXPECT_NEAR(std::stod(read_rows[3].at("equal_error_seconds")), 8, 1e-9);
     EXPECT_NEAR(std::stod(read_rows[3].at("equal_error_rays")), 32, 1e-9);
     EXPECT_NEAR(std::stod(read_rows[3].at("equal_time_db")), 6, 1e-9);
-    EXPECT_EQ(read_rows[4].at("equal_error_seconds"), ""); // beyond what was measured
+    EXPECT_EQ(read_rows[4].at("equal_error_seconds"), ""); // beyond the measured range
     EXPECT_NEAR(std::stod(read_rows[8].at("equal_error_seconds")), 16, 1e-9);
 }
 

@@ -40,7 +40,7 @@ TEST(Curve, IsNeverExtrapolated) {
     EXPECT_EQ(reached_at(doubling, 42.001).bound, Reached::beyond);
     EXPECT_EQ(reached_at(doubling, 42.001).cost, 16);
     EXPECT_EQ(reached_at({}, 30).bound, Reached::unknown);
-    EXPECT_EQ(reached_at(doubling, std::nan("")).bound, Reached::beyond); // no quality is reached by nobody
+    EXPECT_EQ(reached_at(doubling, std::nan("")).bound, Reached::beyond); // NaN is never reached
 }
 
 TEST(Curve, OnePointSaysNoMoreThanItself) {
@@ -58,7 +58,7 @@ TEST(Curve, ThatFallsCountsFromWhereItFirstReached) {
     EXPECT_NEAR(reached_at(noisy, 42.5).cost, 4 * std::pow(2, 0.75), 1e-12);
 }
 
-// Either way round it is the same line.
+// Both directions use the same line.
 TEST(Curve, QualityAndCostAreInverse) {
     for (double cost = 1; cost <= 16; cost *= 1.1)
         EXPECT_NEAR(reached_at(doubling, *quality_at(doubling, cost)).cost, cost, 1e-9 * cost);

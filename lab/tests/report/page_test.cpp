@@ -49,7 +49,7 @@ TEST(Page, HoldsAllOfItself) {
     EXPECT_TRUE(holds(html, "data:image/svg+xml;base64,PHN2ZzIvPg==\"")); // on demand
     EXPECT_TRUE(holds(html, "a &gt; block"));
     EXPECT_TRUE(holds(html, "data:image/png;base64,Zm9vYg==\""));
-    EXPECT_TRUE(holds(html, ">12345</td>")); // what is not finite is told
+    EXPECT_TRUE(holds(html, ">12345</td>")); // the page reports non-finite values
     EXPECT_EQ(count(html, "<tr"), 1 + rows.size());
     EXPECT_TRUE(holds(html, "startViewer"));
     for (const char *from_elsewhere : {"http:", "https:", "src=\"/", "<link", "@import", "url("})

@@ -55,14 +55,14 @@ TEST(Verdict, CrossingIsWhereRayTracingPassesTheBestSparseRow) {
 }
 
 TEST(Verdict, NamesWhereRayTracingIsBetter) {
-    // 38 dB take ray tracing 6.3 s: the row of 10 s is a waste of time.
+    // Ray tracing needs 6.3 s for 38 dB, so the row of 10 s is of no use.
     const auto rows = with({report_row(Role::sparse_lens, "quick", 2, 5, 37),
                             report_row(Role::sparse_lens, "slow", 10, 40, 38)});
     const SceneVerdict verdict = scene_verdict(rows);
     ASSERT_EQ(verdict.slower.size(), 1u);
     EXPECT_EQ(verdict.slower[0], 4u);
     EXPECT_TRUE(says(text_of(rows), "the better choice: slow, lens at 40 rays."));
-    EXPECT_EQ(verdict.below, 1u); // the other needs no further comparison
+    EXPECT_EQ(verdict.below, 1u); // the other one is not compared further
 }
 
 TEST(Verdict, RayTracingThatIsBetterFromTheStartIsSaidToBe) {
@@ -100,7 +100,7 @@ TEST(Verdict, ClaimsNothingWhereNothingWasMeasured) {
     EXPECT_TRUE(says(text_of(ray_tracing_rows()), "No sparse views seen through the lens were measured."));
     EXPECT_TRUE(says(text_of({report_row(Role::sparse_lens, "sparse", 2, 5, 37)}),
                      "No ray tracing of the lens was measured."));
-    // The only row takes longer than the crossing: nothing is said of others being slower.
+    // The only row takes longer than the crossing, so the verdict does not mention slower rows.
     const auto slow = with({report_row(Role::sparse_lens, "slow", 10, 40, 38)});
     EXPECT_TRUE(says(text_of(slow), "No sparse row with the lens gather takes less time than that."));
 }

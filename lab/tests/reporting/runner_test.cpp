@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of tools that are shell scripts, and one of a report.
+// A folder of tools that are shell scripts, and a folder for a report.
 class RunnerTest : public testing::Test {
 protected:
     RunnerTest() {
@@ -51,7 +51,7 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// A shell script that writes what a tracer says of its views: the centre view took so many seconds.
+// A shell script that writes a tracer's camera.json: the centre view took `seconds`.
 std::string tracing(const std::string &seconds) {
     return "echo \"{\\\"width\\\": 1, \\\"height\\\": 1, \\\"focal_mm\\\": 1, \\\"sensor_width_mm\\\": 1, "
            "\\\"focus_distance\\\": null, \\\"lens_radius\\\": 0, \\\"views\\\": [], \\\"view_spp\\\": 1, "
@@ -59,7 +59,7 @@ std::string tracing(const std::string &seconds) {
            seconds + "}}\" >views/camera.json";
 }
 
-// Its centre view does not count.
+// The seconds of its centre view are subtracted.
 Step tracing_step() {
     return {.name = "trace",
             .commands = {{Stage::render, {"trace"}}},
@@ -137,7 +137,7 @@ TEST_F(RunnerTest, GoesOnWhereItStopped) {
 }
 
 TEST_F(RunnerTest, TimesAreMediansOfSeveralRuns) {
-    // Each run is some thousand seconds short, by what it says it rendered for nothing; their mean is 3000 short.
+    // Each run reports thousands of seconds of unneeded rendering, 3000 on average, which are subtracted.
     tool("trace", "echo ran >>log; " +
                       tracing("$(case $(wc -l <log) in 1) echo 1000;; 2) echo 6000;; *) echo 2000;; esac)"));
     const Clock::time_point start = Clock::now();
@@ -210,7 +210,7 @@ TEST(Process, FailuresAreErrors) {
 TEST(Process, TellsTimeAndMemory) {
     const ScratchFolder scratch;
     EXPECT_GE(run_process({"sleep", "0.1"}, scratch.file("")).seconds, 0.1);
-    // What this process has held counts as its child's, too, until that has become another program.
+    // The memory of this process counts for its child too, until the child has started another program.
     rusage own{};
     getrusage(RUSAGE_SELF, &own);
     const long mebibytes = own.ru_maxrss / 1024 + 400;

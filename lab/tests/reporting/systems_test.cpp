@@ -29,7 +29,7 @@ struct Planned {
         return std::ranges::any_of(plan.rows,
                                    [&](const PlannedRow &r) { return r.row.renderer == renderer; });
     }
-    // The commands whose time a row's is.
+    // The commands whose time counts for the row.
     std::string commands(const PlannedRow &row) const {
         std::string text;
         for (const std::size_t step : row.steps)
@@ -107,7 +107,7 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
               "fence/views-5x16/lens-final.exr\n");
     EXPECT_EQ(all.commands(all.row("centre + 8, selective K=2", "1 sample")).substr(0, 73),
               "dof-trace fence --size 640x360 --spp 1 --views 8 -o fence/views-9x1\nldi-w");
-    // As many rays, in pixels a quarter as large.
+    // The same number of rays, in pixels of a quarter of the area.
     EXPECT_EQ(all.commands(all.row("centre + 4 at 2x, lens final", "16 samples")),
               "dof-trace fence --size 640x360 --spp 16 --views 4 -o fence/fine-5x16 --supersample 2\n"
               "ldi-warp fence/fine-5x16/center.exr fence/fine-5x16/view_0.exr fence/fine-5x16/view_1.exr "
@@ -121,12 +121,12 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
               "fence/peel-4x4/selective-8.exr\n");
     EXPECT_EQ(all.commands(all.row("distributed ray tracing", "64 rays")),
               "dof-trace fence --size 640x360 --spp 1 --views 0 -o fence/traced-64 --reference 64\n");
-    // The comparison's own picture is nobody's time.
+    // The picture for the comparison counts in no row's time.
     for (const PlannedRow &row : all.plan.rows)
         for (const std::size_t step : row.steps) EXPECT_TRUE(all.steps[step].timed);
 }
 
-// Only for the lens gather over centre and 4 with most samples, because it takes as long as 16 pictures.
+// Only for the lens gather over centre and 4 with most samples, because a pull costs as much as 16 pictures.
 TEST(Systems, PullsOfFocusShowHowSteadyTheLensIs) {
     const Planned all = planned("fence");
     const PlannedRow &row = all.row("centre + 4, lens final", "64 samples");
@@ -169,7 +169,7 @@ TEST(Systems, PlannedViewsAreThereWhereThereIsAPlanner) {
     const Planned with = planned("fence", Detail::all, true);
     const PlannedRow &row = with.row("centre + 4 planned, lens normal", "16 samples");
     EXPECT_EQ(row.row.role, Role::sparse_lens);
-    EXPECT_EQ(row.row.rays, 16); // those of the partial views are counted when they are there
+    EXPECT_EQ(row.row.rays, 16); // the partial views' rays are counted after rendering
     EXPECT_EQ(row.partial_samples, 16);
     const std::string commands = with.commands(row);
     EXPECT_NE(

@@ -24,7 +24,7 @@ Ldi warped(const lab::SceneCamera &scene) {
 
 class DeviceScenes : public GpuTest {
 protected:
-    // gather(scene, ldi, device): all tiles of all scenes are the device's.
+    // gather(scene, ldi, device) must compute all tiles of all scenes on the device.
     template <typename Gather>
     void expect_same(const Gather &gather) {
         const auto device = open_gather_device(*info, watch());

@@ -1,5 +1,5 @@
-// Extra vision: a layered picture that shows what no view saw. An LDI warped from views has none, a scene cut into
-// strata has, and the same measure tells them apart.
+// Extra vision: a layered picture that shows surfaces no view saw. An LDI warped from views has none; a scene cut into
+// strata has some, and the same measure distinguishes them.
 #include "lab/tests/support/traced.h"
 #include "lab/trace/deep.h"
 #include "lab/trace/scenes.h"
@@ -15,8 +15,8 @@ namespace {
 
 using namespace lab;
 
-// Whether the view shows a surface within a pixel of perceptive depth of the sample's, within a pixel of where the
-// sample would be seen. `p`: the sample's place in the centre view.
+// Whether the view shows a surface within a pixel of perceptive depth of the sample's, within a pixel of where it would
+// see the sample. `p`: the sample's position in the centre view.
 bool sees(const View &view, const ThinLens &lens, const Imath::V2d &p, double z) {
     const double shift = lens.focal_px / z;
     const int x = int(std::floor(p.x - shift * view.position.x)),

@@ -1,4 +1,5 @@
-// Lamps behind thin posts, traced, and pulled by focus and by aperture: the light of each is that of the lens that sees it.
+// Traced lamps behind thin posts, with focus and aperture pulls: each lamp's light is the share of the lens that sees
+// it.
 #include "dof/gather_picture.h"
 #include "lab/tests/support/traced.h"
 #include "lens/f_number.h"
@@ -28,18 +29,18 @@ double left_of(double x) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// One pixel wide and high in all five views, as its place and its perceptive depth are whole.
+// A lamp one pixel wide and high in all five views, because its position and perceptive depth are whole numbers.
 struct Lamp {
     Imath::V2i pixel; // from the middle of the picture
     int near_px;
 
     double z() const { return full * width / near_px; }
-    // The share of a lens that posts of that width leave of it. A point of the lamp at x is seen through lens point u at the
-    // posts' place x + (near - posts) u radius / full.
+    // The share of a lens that posts of that width leave open. A point of the lamp at x is seen through lens point u at
+    // x + (near - posts) u radius / full, in the plane of the posts.
     double seen(double radius, int post) const {
         const double scale = (posts_px - near_px) * radius / full;
         double hidden = 0;
-        constexpr int parts = 16; // of the lamp
+        constexpr int parts = 16; // of a lamp
         for (int part = 0; part < parts; ++part)
             for (int i = 0; i < 14; ++i) {
                 const double left =
@@ -60,7 +61,7 @@ std::vector<Lamp> all_lamps() {
 Paint black(const Imath::V3d &) { return {.colour = {0, 0, 0}, .emits = true}; }
 Paint white(const Imath::V3d &) { return {.colour = {60, 60, 60}, .emits = true}; }
 
-// A square that shows at these pixels of the centre view, y up.
+// A square that covers these pixels of the centre view, y up.
 Quad facing(double z, double left, double bottom, double right, double top, Material material) {
     const auto corner = [&](double x, double y) { return Imath::V3d(x, y, width) * (z / width); };
     return {{{corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)}}, material};
@@ -82,7 +83,7 @@ Ldi ldi_of(const std::vector<Lamp> &lamps, int post) {
     return warp(camera.five_views(16), {.focal_px = width, .radius = full, .focus = focus}, silent);
 }
 
-// The light of each lamp: the pixels nearer to it than to the others.
+// The light of each lamp: the sum over the pixels nearer to it than to the other lamps.
 std::vector<double> light_of(const Image &picture, const std::vector<Lamp> &lamps) {
     std::vector<double> light(lamps.size(), 0);
     for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {

@@ -1,4 +1,4 @@
-// The whole way from a scene to the lens picture, at small size, at the default quality.
+// The whole chain from a scene to the lens picture, at small size and default quality.
 #include "deep/cluster.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/tests/support/traced.h"
@@ -56,7 +56,7 @@ void around(const Image &image, std::size_t channel, const Lamp &lamp, const Vis
                   (Imath::V2d(x + 0.5, y + 0.5) - lamp.centre).length());
 }
 
-// From views between whole pixels of parallax a lamp is a mixed pixel, of partial coverage.
+// Views between whole pixels of parallax see a lamp as mixed pixels of partial coverage.
 std::vector<View> nine_views(const SceneCamera &scene, int samples) {
     std::vector<View> views = scene.five_views(samples);
     for (const Imath::V2d &u : rim_lens_points(8))
@@ -93,7 +93,7 @@ TEST(LensScenes, LampsOfPartialCoverageAreSmoothDiscsToo) {
     int partial = 0;
     for (std::size_t i = 0; i < ldi.samples(); ++i)
         partial += ldi.values[red][i] > 100 && ldi.values[alpha][i] < 1;
-    ASSERT_GT(partial, 0); // else this tests nothing
+    ASSERT_GT(partial, 0); // otherwise this tests nothing
     const Image image = gather(ldi, scene);
     for (const Lamp &lamp : lamps_of(scene.settings.lens, 2)) {
         double inside = 0, squares = 0;
@@ -109,7 +109,7 @@ TEST(LensScenes, LampsOfPartialCoverageAreSmoothDiscsToo) {
     }
 }
 
-// The part of the scene "macro" that its near relief fills.
+// The part of the scene "macro" that the near relief fills.
 Image relief(const Image &image) {
     const Imath::V2i size = image.windows.data.size() + Imath::V2i(1);
     return crop(image, {{size.x * 3 / 16, size.y / 5}, {size.x * 13 / 16, size.y * 4 / 5}});
@@ -120,7 +120,7 @@ double toned(const Image &image, int x, int y) {
     return std::pow(green / (1 + green), 1 / 2.2);
 }
 
-// How far columns are from the mean of those beside them, on average.
+// The mean difference of columns from the mean of their neighbours.
 std::map<int, double> roughness_of_columns(const Image &image) {
     const Imath::Box2i &box = image.windows.data;
     std::map<int, double> rough;
@@ -139,8 +139,8 @@ struct Mean {
     double deviation() const { return std::sqrt(squares / count - mean() * mean()); }
 };
 
-// Lamps behind a steep relief do not shine through it where tiles meet: the six columns there are as even as any six, to three
-// standard errors of their mean. floors/floors.h covers the rest of the picture.
+// Lamps behind a steep relief do not shine through it at borders between tiles: the six columns there are as even as
+// any six, within three standard errors of their mean. floors/floors.h covers the rest of the picture.
 TEST(LensScenes, MacroReliefHasNoSeam) {
     const SceneCamera scene("macro", 256, 144);
     const Image image = relief(gather(warped(scene, scene.five_views(9)), scene, Quality::final));

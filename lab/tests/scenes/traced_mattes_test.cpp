@@ -1,4 +1,4 @@
-// Mattes of a traced scene from five views, against those of 256 views of the lens.
+// Mattes of a traced scene from five views, compared with those of 256 views over the lens.
 #include "deep/cluster.h"
 #include "dof/methods.h"
 #include "lab/tests/support/traced.h"
@@ -17,7 +17,7 @@ namespace {
 
 using namespace lab;
 
-constexpr int grid = 8; // rays of a pixel of a view along one axis
+constexpr int grid = 8; // rays per pixel of a view along one axis
 
 // Adds the share of the rays that meet each object.
 void count_objects(const Tracer &tracer, const std::vector<Ray> &rays, double weight,
@@ -28,7 +28,7 @@ void count_objects(const Tracer &tracer, const std::vector<Ray> &rays, double we
         if (!hit.sky()) shares[hit.primitive] += weight / double(rays.size());
 }
 
-// The middle of the i-th of so many parts along each axis.
+// The middle of part i of a pixel divided into parts x parts.
 Imath::V2d in_pixel(const Imath::V2i &pixel, int i, int parts) {
     return {pixel.x + (i % parts + 0.5) / parts, pixel.y + (i / parts + 0.5) / parts};
 }
@@ -61,20 +61,20 @@ std::map<int, double> seen_by_lens(const SceneCamera &scene, const Imath::V2i &p
     const auto points = spiral_lens_points(256);
     for (const Imath::V2d &u : points) {
         std::vector<Ray> rays;
-        for (const int r : {1, 7, 8, 14}) // four, none above another
+        for (const int r : {1, 7, 8, 14}) // four objects that do not overlap
             rays.push_back(lens_ray(scene.settings, u, in_pixel(pixel, r, 4)));
         count_objects(scene.tracer, rays, 1.0 / double(points.size()), shares);
     }
     return shares;
 }
 
-// Sums for each object over all pixels: its share of them, the picture's error in it, and the squares of both.
+// Sums over all pixels for each object: its share of them, the picture's error, and the squares of both.
 struct MatteError {
     double shares = 0, errors = 0, shares_squared = 0, errors_squared = 0;
 
-    // As much as there is: an object as small as a lamp is met by few rays of the five views: two standard errors of their number,
-    // and a fifth for what edges and other objects hide from them. And where it is: a lamp that has the wall's depth is seen as far out
-    // of focus as the wall, so that squares may be those of sixteen rays a pixel.
+    // Checks the amount: few rays of the five views hit an object as small as a lamp, so two standard errors of their
+    // number are allowed, and a fifth for light that edges and other objects hide. Checks the position: a lamp with the
+    // wall's depth is as far out of focus as the wall, so squares may be those of sixteen rays per pixel.
     bool is_there() const {
         const auto allowed = [this](int rays) { return 0.2 + 2 / std::sqrt(5 * rays * shares); };
         return std::abs(errors) <= allowed(grid * grid) * shares &&
@@ -120,7 +120,8 @@ std::map<int, MatteError> errors_of_five_views(const SceneCamera &scene) {
 
 constexpr int width = 160, height = 90;
 
-// 18 lamps of a quarter of a pixel each. Their corners lie in the middle of it, so that five have the wall's depth in all views.
+// 18 lamps of a quarter of a pixel each. Their corners are in the middle of a pixel, so five of them have the wall's
+// depth in all views.
 TEST(TracedMattes, SmallObjectsFarOutOfFocus) {
     const auto errors = errors_of_five_views(SceneCamera("lamps", width, height));
     EXPECT_EQ(errors.size(), 19u);

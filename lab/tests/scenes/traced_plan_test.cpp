@@ -9,7 +9,7 @@ namespace {
 
 using namespace lab;
 
-// What the plan asks for is all that it takes: views that are empty elsewhere uncover as much as whole ones.
+// The pixels that the plan asks for suffice: views that are empty elsewhere uncover as much as whole views.
 TEST(Plan, WhatItAsksForIsWhatIsHidden) {
     const SceneCamera scene("fence", 160, 90);
     const View centre = scene.view({0, 0}, 4, 0);

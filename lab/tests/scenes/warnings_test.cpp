@@ -1,5 +1,5 @@
-// What is warned of: nothing of views that are right, of all scenes at sizes and numbers of samples that people render; and each
-// mistake where pixels show it.
+// Warnings: none about correct views, for all scenes at usual sizes and numbers of samples; and each mistake is named
+// if pixels show it.
 #include "deep/checks/view_warnings.h"
 #include "io/open_view.h"
 #include "lab/tests/support/traced.h"
@@ -63,7 +63,7 @@ TEST(Warnings, ThereAreNoneOfGoodViews) {
     EXPECT_GE(sets, 60u);
 }
 
-// Colours as for a display.
+// Colours encoded for a display.
 View encoded(View view) {
     for (std::size_t k = 0; k < 3; ++k)
         for (float &v : view.image.plane(k))
@@ -71,7 +71,7 @@ View encoded(View view) {
     return view;
 }
 
-// In grey scenes, and where one sample shows each pixel, no colour tells.
+// In grey scenes, and with one sample per pixel, no colour shows it.
 TEST(Warnings, EncodedColoursAreNamedWherePixelsMix) {
     for (const std::string name : {"fence", "grass", "mirror", "plane-mirror", "curved-mirrors",
                                    "glossy-floor", "element", "plate", "element-in-plate", "macro", "scales"})
@@ -106,9 +106,10 @@ TEST(Warnings, WrongPlacesAreNamedAndRightOnesGiven) {
             std::vector<View> views = shot.views();
             const double r = shot.radius();
             std::vector<Imath::V2d> wrong{{-r, 0}, {0, r}};
-            // Edges of depth tell how far out: there are none, or they lie along the way of the view.
+            // Distances need depth edges: these scenes have none, or their edges are parallel to the view's
+            // displacement.
             if (name != "planes" && name != "slant") wrong.insert(wrong.end(), {{r / 2, 0}, {2 * r, 0}});
-            if (name == "plate") wrong = {{-r, 0}, {2 * r, 0}}; // little moves
+            if (name == "plate") wrong = {{-r, 0}, {2 * r, 0}}; // the scene shows little motion
             for (const Imath::V2d &place : wrong) {
                 views[1].position = place;
                 const std::string said = said_of(views, shot.facts);
@@ -130,7 +131,7 @@ TEST(Warnings, PlacesInMillimetresAreAskedFor) {
     }
 }
 
-// Path-traced views that lie beside the sources on some machines; camera.json says where they were taken.
+// Path-traced views beside the sources, which exist on some machines; camera.json has their positions.
 std::vector<View> path_traced(const std::filesystem::path &folder, const nlohmann::json &camera,
                               ViewFacts &facts) {
     const double radius = camera["lens_radius"];
@@ -163,7 +164,7 @@ TEST_P(PathTracedViews, AreGood) {
     ViewFacts facts;
     const std::vector<View> views = path_traced(folder, camera, facts);
     EXPECT_EQ(said_of(views, facts), "");
-    // Views stay as good with another lens, or another focus.
+    // Views stay valid with another lens or another focus.
     const Camera own = facts.camera;
     for (const double radius : {0.25, 0.5, 1.0, 2.0})
         for (const double focus : {0.5, 0.8, 1.25, 2.0, 8.0}) {

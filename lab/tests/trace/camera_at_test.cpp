@@ -6,7 +6,7 @@
 namespace sparselens::lab {
 namespace {
 
-// A point of the world lands, through the file's matrices, where the tracer's own rays see it.
+// The file's matrices project a point of the world to where the tracer's own rays see it.
 TEST(CameraAt, MatricesAgreeWithTheRays) {
     Camera camera = build_scene("fence").camera;
     camera.focal_length_mm = 50;

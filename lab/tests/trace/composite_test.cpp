@@ -38,7 +38,7 @@ TEST(Composite, SurfaceInsideASlabSeesItsFrontPart) {
     EXPECT_NEAR(composite({&wall, 1}, {&slab, 1}).r, 1 - std::exp(-0.4), 1e-6);
 }
 
-// Two colours over the same stretch mix by density; elsewhere each stands alone. Worked out piece by piece.
+// Two colours over the same stretch mix by density; elsewhere there is one colour. Computed piece by piece.
 TEST(Composite, OverlappingSlabsMixByDensity) {
     const Slab slabs[] = {{1, 3, 0.5, {1, 0, 0}}, {2, 4, 0.25, {0, 1, 0}}};
     const Imath::C4f c = composite({}, slabs);

@@ -15,7 +15,7 @@ namespace {
 Progress silent;
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// A red half-covering sheet on the left, a blue wall behind all, sky behind that.
+// A red half-covering sheet on the left, a blue wall behind everything, sky behind the wall.
 Scene sheet_and_wall() {
     Scene scene;
     scene.translucent = true;
@@ -49,7 +49,7 @@ TEST(RenderPeeled, OnlyTheNearestAreKept) {
     EXPECT_EQ(depths(render_peeled(tracer, settings, 2, 1, 1, silent), 0), (std::vector<float>{4, 8}));
 }
 
-// The first layer is what the centre view sees, and no layer mixes two surfaces: the sheet ends inside pixel 4.
+// The first layer shows what the centre view sees, and no layer mixes two surfaces: the sheet ends inside pixel 4.
 TEST(RenderPeeled, SilhouettesStayUnmixed) {
     RenderSettings settings = settings_of_size(9, 3);
     const Ldi ldi = render_peeled(Tracer(sheet_and_wall()), settings, 3, 16, 1, silent);
@@ -73,7 +73,7 @@ TEST(RenderPeeled, FirstDepthIsTheCentreViews) {
     }
 }
 
-// A wall wholly hidden from the centre is in its own stratum all the same: the see-through fault.
+// A wall that is fully hidden from the centre appears in its own stratum: the see-through fault.
 TEST(RenderStrata, SeeWhatIsHidden) {
     const RenderSettings settings = settings_of_size(8, 4);
     Scene scene;
@@ -86,7 +86,7 @@ TEST(RenderStrata, SeeWhatIsHidden) {
     EXPECT_FLOAT_EQ(ldi.values[2][1], 1);
 }
 
-// Intervals are equal in 1 / z from the nearest surface, 4, on: 2 strata part at 8.
+// Intervals are equal in 1 / z from the nearest surface, at 4: 2 strata part at 8.
 TEST(RenderStrata, PartAtEqualPerceptiveDepth) {
     const RenderSettings settings = settings_of_size(8, 4);
     for (const double z : {7.9, 8.1}) {
@@ -122,7 +122,7 @@ TEST(RenderStrata, OneStratumIsTheCentreView) {
     for (std::size_t i = 0; i < ldi.samples(); ++i) EXPECT_EQ(ldi.z[i], view.plane(4)[i]);
 }
 
-// What is hidden is not there; where the sheet ends inside a pixel, both surfaces are.
+// Hidden surfaces are missing; where the sheet ends inside a pixel, both surfaces exist.
 TEST(RenderVisible, IsWhatTheSamplesSee) {
     const RenderSettings settings = settings_of_size(9, 3);
     Scene scene = sheet_and_wall();
@@ -137,7 +137,7 @@ TEST(RenderVisible, IsWhatTheSamplesSee) {
     EXPECT_EQ(depths(render_visible(Tracer(scene), settings, 16, 1, silent), 0), (std::vector<float>{4}));
 }
 
-// Surfaces that cross in a pixel, the sky between thin bars, partial coverage: flattened, all is as the view has it.
+// Surfaces that cross in a pixel, the sky between thin bars, partial coverage: flattened, all equal the view.
 TEST(RenderVisible, FlattenedIsTheCentreView) {
     const RenderSettings settings = settings_of_size(64, 36);
     for (const char *scene : {"fence", "grass", "mist", "element"}) {
@@ -150,7 +150,7 @@ TEST(RenderVisible, FlattenedIsTheCentreView) {
     }
 }
 
-// Slabs are samples of their whole extent: alpha 1 - exp(-optical depth), overlapping, after the surfaces.
+// Slabs are samples with their whole extent: alpha 1 - exp(-optical depth), overlapping, after the surfaces.
 TEST(RenderDeep, SlabsAreVolumeSamples) {
     Scene scene = sheet_and_wall();
     scene.slabs = {{2, 6, 0.25, {1, 0.5f, 0}}, {5, 7, 0.5, {0, 0, 1}}};
@@ -171,7 +171,7 @@ TEST(RenderDeep, SlabsAreVolumeSamples) {
     }
 }
 
-// Tidied and flattened, the peeled mist is the centre view of the mist: slabs, sheets and backdrop in all.
+// Tidied and flattened, the peeled mist equals the centre view of the mist: slabs, sheets and backdrop.
 TEST(RenderDeep, FlattenedMistIsTheCentreView) {
     const RenderSettings settings = settings_of_size(64, 36);
     const Tracer tracer(build_scene("mist"));

@@ -1,4 +1,4 @@
-// Where the rays of the reference through a lens with looks go, in closed form.
+// The directions of the reference's rays through a lens with looks, in closed form.
 #include "lab/trace/look_rays.h"
 
 #include <gtest/gtest.h>
@@ -17,12 +17,12 @@ RenderSettings settings_with(const LensLooks &looks) {
     return settings;
 }
 
-// Where the ray is when it has come to this depth.
+// The ray's position at this depth.
 Imath::V3d at_depth(const Ray &ray, double z) {
     return ray.origin + ray.direction * ((z - ray.origin.z) / ray.direction.z);
 }
 
-// The rays of a pixel at x right, y up of the axis meet on the ray through the middle of the lens at depth z.
+// The rays of a pixel at x right, y up of the axis must meet on the ray through the middle of the lens at depth z.
 void expect_to_meet(const LensLooks &looks, double x, double y, double z, std::size_t colour = 1,
                     const std::vector<Imath::V2d> &points = {{1, 0}, {-1, 0}, {0, 1}, {0.6, -0.8}, {0, 0}}) {
     const RenderSettings settings = settings_with(looks);
@@ -41,7 +41,7 @@ TEST(LookRays, MeetOnThePlaneOfFocus) {
     for (const Imath::V2d &p : places) expect_to_meet({}, p.x, p.y, 5);
 }
 
-// On the plane z + x tan X + y tan Y = d.
+// Rays meet on the plane z + x tan X + y tan Y = d.
 TEST(LookRays, MeetOnATiltedPlane) {
     for (const Imath::V2d &p : places)
         expect_to_meet({.tilt = {2, -1}}, p.x, p.y, 5 / (1 + 2 * p.x / 640 - p.y / 640));
@@ -62,7 +62,7 @@ TEST(LookRays, MeetTwiceWithAstigmatism) {
     expect_to_meet({.astigmatism = -0.4}, 24, -16, 5 / 0.9, 1, {{along.x, -along.y}});
 }
 
-// c = R F (1/d - 1/z), so what is sharp in a colour whose CoC grows by s has 1/z = 1/d + s / (R F).
+// c = R F (1/d - 1/z), so for a colour whose CoC grows by s the sharp depth has 1/z = 1/d + s / (R F).
 TEST(LookRays, MeetWhereTheirColourComesToFocus) {
     for (std::size_t colour = 0; colour < 3; ++colour)
         expect_to_meet({.chromatic_coc = {-2, 0, 3}}, 30, -20,

@@ -5,7 +5,7 @@
 namespace sparselens::lab {
 namespace {
 
-// Worked out apart from the code, in unbounded integers: numerators over 2^24.
+// Computed independently of the code, in unbounded integers: numerators over 2^24.
 TEST(Materials, HashBits) {
     EXPECT_EQ(hash(0, 0, 0), 0);
     EXPECT_EQ(hash(1, 0, 0) * 0x1p24, 7712859);

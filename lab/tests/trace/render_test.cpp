@@ -39,7 +39,7 @@ Blob measure(const Image &image, std::size_t channel) {
     return blob;
 }
 
-// One square lamp of `pixels` pixels about centre position p of a picture.
+// One square lamp of `pixels` pixels around centre position p of a picture.
 Scene lamp_at(const RenderSettings &settings, const Imath::V2d &p, double z, double pixels) {
     const Imath::V2d centre(settings.windows.display_width() * 0.5, settings.windows.display_height() * 0.5);
     const double unit = z / settings.lens.focal_px, half = pixels / 2;
@@ -66,7 +66,7 @@ TEST(RenderView, RimViewsSeeThePointWhereTheDesignSays) {
     }
 }
 
-// x = p + c (u_x, -u_y): a point of depth z at centre position p lies on the lens ray of u through x.
+// x = p + c (u_x, -u_y): a point of depth z at centre position p is on the lens ray of u through x.
 TEST(RenderReference, LensRaysMeetPointsWhereTheDesignSays) {
     RenderSettings settings = settings_of_size(640, 360);
     for (const double aspect : {1.0, 2.0})
@@ -130,8 +130,8 @@ TEST(RenderReference, DefocusedPlaneWaveIsItsClosedForm) {
     }
 }
 
-// Radiance times projected area, spread evenly over the disc: its variance is c^2 / 2, and the square's s^2 / 6
-// and the pixel's 1 / 6 on top.
+// Radiance times projected area, spread evenly over the disc: its variance is c^2 / 2, plus s^2 / 6 for the square and
+// 1 / 6 for the pixel.
 TEST(RenderReference, LampKeepsItsEnergyAndFillsItsDisc) {
     const RenderSettings settings = settings_of_size(64, 64, 0.2);
     for (const double z : {2.5, 20.0}) {
@@ -219,7 +219,8 @@ TEST(Render, NoiseOfSeedsIsIndependent) {
     EXPECT_NEAR(squares(a, b) / squares(b, b), 0.5, 0.15);
 }
 
-// One sample a pixel and view: on a grid all lie at the pixel centre, and edges stay jagged however many views.
+// One sample per pixel and view: on a grid all samples are at pixel centres, and edges stay jagged with any number of
+// views.
 TEST(RenderView, ScatteredSamplesAreAntialiasedByTheirAverage) {
     RenderSettings settings = settings_of_size(48, 27);
     settings.lens.radius = 0;

@@ -7,7 +7,7 @@
 namespace sparselens::lab {
 namespace {
 
-// 2^k points of every dimension fall one into each of 2^k equal intervals, whatever the scrambling.
+// Of 2^k points, one falls into each of 2^k equal intervals in every dimension, with any scrambling.
 TEST(Sampling, EveryCoordinateIsStratified) {
     const SobolPoints points(256);
     for (std::size_t dimension = 0; dimension < SobolPoints::dimensions; ++dimension)

@@ -23,7 +23,7 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
                                             "slant"}));
 }
 
-// Quads are planar, in order around, and convex: what the tracer takes for granted.
+// Quads are planar, with corners in order, and convex, as the tracer requires.
 TEST(Scenes, QuadsAreSound) {
     for (const SceneEntry &entry : scene_table())
         for (const Quad &quad : entry.build().quads) {
@@ -64,7 +64,7 @@ TEST(Scenes, GrassIsAsWritten) {
     EXPECT_NEAR((scene.quads.back().corners[2] - top).length(), 0, 1e-12);
 }
 
-// Some of the plate hides some of the element and the other way round, and no two objects meet.
+// Parts of the plate hide the element and vice versa, and no two objects intersect.
 TEST(Scenes, ElementStandsInThePlate) {
     const Scene element = build_scene("element"), plate = build_scene("plate"),
                 both = build_scene("element-in-plate");
@@ -95,7 +95,7 @@ TEST(Scenes, PlanesStandInFrontOfInAndBehindFocus) {
         for (const PlaneWave &wave : plane.radiance) EXPECT_GT(wave.mean, wave.amplitude);
 }
 
-// Each lamp is 2 x 2 whole pixels at the default size, where the axis-parallel rim views see it, too.
+// Each lamp is 2 x 2 whole pixels at the default size, also in the axis-parallel rim views.
 TEST(Scenes, LampsLieOnWholePixels) {
     const Scene scene = build_scene("lamps");
     const double rf = 0.12 * 640;
@@ -108,7 +108,7 @@ TEST(Scenes, LampsLieOnWholePixels) {
     }
 }
 
-// From CoC -105 to 137 at the default size of 640 pixels; no lamp is hidden by the picture's border.
+// CoC from -105 to 137 at the default size of 640 pixels; the picture's border hides no lamp.
 TEST(Scenes, MacroIsNearAndItsLampsStandInThePicture) {
     const Scene scene = build_scene("macro");
     EXPECT_EQ(*scene.camera.fstop, 1);
@@ -127,8 +127,8 @@ TEST(Scenes, MacroIsNearAndItsLampsStandInThePicture) {
     EXPECT_NEAR(rf / focus - rf / nearest, -105, 1);
 }
 
-// The middle of the lens sees all of the sides of the horns: towards their bases they grow faster than what it sees
-// gets smaller.
+// The middle of the lens sees all of the horns' sides: towards their bases they grow faster than their apparent size
+// shrinks.
 TEST(Scenes, MacroHornsAreWiderAtTheBase) {
     const Scene scene = build_scene("macro");
     std::size_t steps = 0;

@@ -16,7 +16,7 @@ Imath::C4f seen(const Scene &scene, Light light, const Imath::V2d &light_point =
     return out;
 }
 
-// What the first quad's material shows when it reflects nothing.
+// The colour of the first quad's material when it reflects nothing.
 float lit_chrome(Scene scene) {
     scene.mirrors = false;
     return seen(scene, Light::sun).r;
@@ -58,7 +58,7 @@ TEST(Shading, AlbedoIsTheColourWithoutLight) {
     EXPECT_EQ(seen(scene, Light::albedo), Imath::C4f(1, 1, 1, 1));
 }
 
-// A mirror shows the normal of what it shows.
+// A mirror shows the normal of the reflected surface.
 TEST(Shading, NormalsAreColours) {
     Scene scene;
     EXPECT_EQ(seen(scene, Light::normal), Imath::C4f(0, 0, 0, 1));
@@ -75,7 +75,7 @@ TEST(Shading, NormalsAreColours) {
     EXPECT_NEAR(wall.g, 0, 1e-6);
 }
 
-// Half of a sheet lies over the wall; a slab has no normal.
+// The sheet covers half of the wall; a slab has no normal.
 TEST(Shading, WhatDenoisersAskForIsCompositedLikeThePicture) {
     Scene scene;
     scene.translucent = true;
@@ -88,7 +88,7 @@ TEST(Shading, WhatDenoisersAskForIsCompositedLikeThePicture) {
     EXPECT_EQ(seen(scene, Light::normal).r, 0);
 }
 
-// A mirror at 45 degrees turns the view to the right; of two mirrors the second shows its own colour.
+// A mirror at 45 degrees turns the view to the right; with two mirrors the second shows its own colour.
 TEST(Shading, MirrorsShowOneBounce) {
     Scene scene;
     scene.mirrors = true;
@@ -109,7 +109,7 @@ Paint thin_glass(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0, 0.5f}; 
 Paint bands(const Imath::V3d &p) { return {{float(p.x), float(p.y), float(p.z)}, 1, true}; }
 Paint rough_silver(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0.1f}; }
 
-// Snell: sin a = 1.5 sin b at both faces; behind the glass the ray goes on in its old direction.
+// Snell: sin a = 1.5 sin b at both faces; behind the glass the ray continues in its old direction.
 TEST(Shading, GlassDisplacesRays) {
     Scene scene;
     scene.mirrors = true;
@@ -139,7 +139,7 @@ TEST(Shading, RoughMirrorsScatterEvenlyOverADisc) {
     }
 }
 
-// From inside, the farther side is seen, and its normal points inwards.
+// From inside, the farther side is visible, and its normal points inwards.
 TEST(Shading, SpheresAroundTheCameraAreSeenFromInside) {
     Scene scene;
     scene.spheres = {{{0, 0, 1}, 5, bands}};
@@ -151,7 +151,7 @@ TEST(Shading, SpheresAroundTheCameraAreSeenFromInside) {
     EXPECT_NEAR(hit.normal.z, -1, 1e-9);
 }
 
-// What stands in the light's way leaves the constant term alone; a small screen takes away some of the light.
+// An object before the light leaves the constant term unchanged; a small screen removes part of the light.
 TEST(Shading, AreaLightCastsSoftShadows) {
     const PixelSamples samples(256, false, 0);
     std::vector<Imath::V2d> points(256);
@@ -174,7 +174,7 @@ TEST(Shading, AreaLightCastsSoftShadows) {
 
 TEST(Shading, ClosedBodiesShadowThemselves) {
     Scene scene;
-    scene.spheres = {{{0, 0, -3}, 2, grey}}; // its far side, seen from behind the light: turned away from it
+    scene.spheres = {{{0, 0, -3}, 2, grey}}; // the visible side is turned away from the light
     const Tracer tracer(scene);
     const Ray away{{0, -9, -3}, {0, 1, 0}};
     const Imath::V2d point(0.5, 0.5);

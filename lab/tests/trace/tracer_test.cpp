@@ -8,7 +8,7 @@
 namespace sparselens::lab {
 namespace {
 
-// Rays from all over a lens through all over a picture.
+// Rays from all parts of a lens through all parts of a picture.
 std::vector<Ray> lens_rays(std::uint32_t count) {
     const RenderSettings settings = settings_of_size(640, 360);
     std::vector<Ray> rays;
@@ -63,7 +63,7 @@ TEST(Tracer, AllHitsAgreeWithBruteForce) {
     EXPECT_LE(differ, 1);
 }
 
-// A far, tiny sphere keeps its outline to a small share of its radius: the lamps of "fence" are 1.5 pixels wide.
+// A far, tiny sphere keeps its outline to within a small share of its radius: the lamps of "fence" are 1.5 pixels wide.
 TEST(Tracer, FarSmallSpheresAreRound) {
     Scene scene;
     scene.spheres = {{{-7.3, 2.4, 17}, 0.04, white_light}};
@@ -71,7 +71,7 @@ TEST(Tracer, FarSmallSpheresAreRound) {
     for (int i = 0; i < 1000; ++i) {
         const double angle = 0.00628318 * i;
         for (const double share : {0.999, 1.001}) {
-            // Perpendicular to the direction of the centre, at a share of the radius from it.
+            // Perpendicular to the direction of the centre, at a share of the radius from the centre.
             const Imath::V3d centre = scene.spheres[0].centre, forward = centre.normalized();
             const Imath::V3d x = (forward % Imath::V3d(0, 1, 0)).normalized(), y = forward % x;
             const Imath::V3d target = centre + 0.04 * share * (std::cos(angle) * x + std::sin(angle) * y);

@@ -1,4 +1,4 @@
-// What pictures show of mistakes, on pictures of which each pixel is a formula.
+// Mistakes that pictures show, tested on pictures given by formulas.
 #include "deep/checks/blur_check.h"
 #include "deep/checks/depth_check.h"
 #include "deep/checks/encoding_check.h"
@@ -22,7 +22,7 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 
 float srgb(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
 
-// Stripes 8 pixels wide whose edges lie anywhere within pixels, which mix the colours of both sides.
+// Stripes 8 pixels wide whose edges are anywhere within pixels. Edge pixels mix the colours of both sides.
 View stripes(const std::function<float(float)> &stored) {
     return make_view(windows_of_size(128, 64), {0, 0}, [&](int x, int y) {
         const double at = x + 0.37 * y, place = std::fmod(at, 16);
@@ -44,8 +44,8 @@ TEST(EncodingCheck, LightMixesAtEdgesAndCodesDoNot) {
     EXPECT_TRUE(looks_encoded(codes));
 }
 
-// Stripes as one sample a pixel shows them, each third of them a pixel wide and of a colour between the two beside it: it lies
-// far from the line, on the curve's side.
+// Stripes rendered with one sample per pixel. Each third stripe is a pixel wide, with a colour between its two
+// neighbours that is far from the line between them, on the side of the curve.
 TEST(EncodingCheck, WhatNoPixelMixesSaysNothing) {
     const View view = make_view(windows_of_size(128, 64), {0, 0}, [](int x, int y) {
         const int place = (x + y) % 17;
@@ -74,7 +74,7 @@ TEST(EncodingCheck, GreysSayNothing) {
     EXPECT_FALSE(looks_encoded(mixing_at_edges(view)));
 }
 
-// A floor and a wall that stands askew, as `stored` of their depths.
+// A floor and an oblique wall, with depths encoded by `stored`.
 View floor_and_wall(const std::function<double(double z)> &stored) {
     return make_view(windows_of_size(120, 100), {0, 0}, [&](int x, int y) {
         const double z = y > 55 ? 40.0 / (y - 50) : 1 / (0.1 + 0.001 * x);
@@ -129,13 +129,13 @@ TEST(BlurCheck, EdgesOutOfFocusAreSharpThroughAPinhole) {
     EXPECT_TRUE(looks_defocused(blurred));
 }
 
-// The card is of fur: its edge is soft, and strands of it are as sharp as pixels are.
+// The card has fur: its edge is soft, and its strands are as sharp as pixels.
 TEST(BlurCheck, WhatIsFineOutOfFocusIsNoBlur) {
     const View soft = card_of(12);
     View fur = soft;
     const Windows &w = fur.image.windows;
     for (int y = 0; y < 100; ++y)
-        for (int x = 0; x < 46; ++x) // the sides of edges, from 46 on, are even
+        for (int x = 0; x < 46; ++x) // the sides of edges are even from 46 on
             for (std::size_t k = 0; k < 3; ++k)
                 if ((x + y / 8) % 4 == 0) fur.image.at(k, w.data.min.x + x, w.data.min.y + y) *= 0.5f;
     EXPECT_TRUE(looks_defocused(sharpness_of_edges(soft, lens)));

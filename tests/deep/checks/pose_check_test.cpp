@@ -15,13 +15,13 @@ namespace {
 
 constexpr double focal_px = 100;
 
-// Colours that say where on which surface a place is, a few pixels large.
+// Colours that identify a position on a surface, a few pixels large.
 float pattern(double x, double y, double z) {
     const auto cell = [z](double v) { return std::uint32_t(std::floor(v / z * 25) + 1000); };
     return float(unit_interval(mix_bits(cell(x), mix_bits(cell(y), std::uint32_t(z)))));
 }
 
-// A card before a wall, seen from `position`: 0.1 to the side they move by 5 and 1 px.
+// A card before a wall, seen from `position`: 0.1 to the side moves them by 5 and 1 px.
 View card_before_wall(const Imath::V2d &position) {
     return make_view(windows_of_size(160, 120), position, [&](int px, int py) {
         const auto place = [&](double z) {
@@ -36,7 +36,7 @@ View card_before_wall(const Imath::V2d &position) {
     });
 }
 
-// The same card, of a pattern before a white wall, is a mirror, behind which a pattern is seen three times as far away.
+// The same card as a mirror before a white wall: it shows a pattern three times as far away as the card.
 View mirror_before_wall(const Imath::V2d &position) {
     View view = card_before_wall(position);
     const Windows &w = view.image.windows;
@@ -78,7 +78,7 @@ TEST(PoseCheck, AWrongDistanceFromTheCentreIsFound) {
         const auto better =
             better_position(centre, said_to_stand_at(view, Imath::V2d(0.15, 0.05) * factor), focal_px);
         ASSERT_TRUE(better) << factor;
-        EXPECT_LT((*better - Imath::V2d(0.15, 0.05)).length(), 0.02) << factor; // a pixel of the card
+        EXPECT_LT((*better - Imath::V2d(0.15, 0.05)).length(), 0.02) << factor; // one pixel at the card
     }
 }
 
@@ -101,7 +101,7 @@ TEST(PoseCheck, MirrorsDoNotMislead) {
     const View centre = mirror_before_wall({0, 0}), view = mirror_before_wall({0.15, 0.05});
     EXPECT_FALSE(better_position(centre, view, focal_px));
     EXPECT_FALSE(turned_by(centre, view, focal_px));
-    for (const double factor : {0.4, 2.5}) { // colours would have it at a third
+    for (const double factor : {0.4, 2.5}) { // colours would give a third of it
         const auto better =
             better_position(centre, said_to_stand_at(view, Imath::V2d(0.15, 0.05) * factor), focal_px);
         ASSERT_TRUE(better) << factor;
@@ -109,7 +109,7 @@ TEST(PoseCheck, MirrorsDoNotMislead) {
     }
 }
 
-// A window that fills the picture: all is farther than its panes, and moves less.
+// A window fills the picture: everything is farther than its panes, and moves less.
 TEST(PoseCheck, WithoutEdgesOfDepthNeitherDistancesNorTurnsAreTold) {
     const auto window = [](const Imath::V2d &position) {
         View view = card_before_wall(position * 0.5);
@@ -144,7 +144,7 @@ TEST(PoseCheck, TheSamePictureFromTwoPlacesIsFound) {
     EXPECT_FALSE(same_picture(referring_to(views), 3, focal_px));
 }
 
-// The picture moved by so many pixels, right and down: turned, or nearly so.
+// The picture moved by `by` pixels, right and down, approximately as by turning the camera.
 View shifted(const View &view, const Imath::V2i &by) {
     View moved = view;
     const Windows &w = view.image.windows;
@@ -186,7 +186,7 @@ TEST(PoseCheck, TheSamePictureFromTheSamePlaceIsFound) {
         << "nothing of them was worth rendering";
 }
 
-// Views of which only the places count; the first of them is that of the first view.
+// Views of which only the positions count; the first has the position of the first view.
 std::vector<PackedView> standing_at(const std::vector<Imath::V2d> &places) {
     std::vector<PackedView> views;
     for (const Imath::V2d &place : places)
@@ -215,8 +215,8 @@ TEST(PoseCheck, TheFirstHasToBeInTheMiddle) {
         EXPECT_FALSE(first_is_at_the_edge(standing_at(places), r));
 }
 
-// A planned view without margin: the little that lands on what the centre shows are mixed pixels of an edge, and
-// contradicts it.
+// A planned view without margin: the few pixels that land on surfaces visible to the centre are mixed edge pixels,
+// which contradict it.
 TEST(PoseCheck, WhatTheCentreCannotSeeSaysNothing) {
     const View centre = card_before_wall({0, 0});
     View view = card_before_wall({0.1, 0});
@@ -225,7 +225,7 @@ TEST(PoseCheck, WhatTheCentreCannotSeeSaysNothing) {
                       alpha = find_channel(view.image.channels, "A");
     for (int y = w.data.min.y; y <= w.data.max.y; ++y)
         for (int x = w.data.min.x; x <= w.data.max.x; ++x) {
-            // Behind the card's right edge, which stands at 105 in the centre view and at 100 here.
+            // Behind the card's right edge, which is at 105 in the centre view and at 100 here.
             const bool hidden = x >= 100 && x < 104 && y >= 40 && y < 80, edge = x == 104 && y == 60;
             if (!hidden && !edge) view.image.at(alpha, x, y) = 0;
             if (edge) view.image.at(red, x, y) = 50;

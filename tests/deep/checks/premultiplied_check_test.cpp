@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-// A square of light 1 with an edge of three pixels before nothing. `shade` makes the colour of a coverage.
+// A square of light 1 with an edge of three pixels before nothing. `shade` gives the colour of a coverage.
 EdgeFall fall_of(const std::function<float(float coverage)> &shade, float outside = 0) {
     View view{.name = "view",
               .image = Image(windows_of_size(60, 60), rgba_channels()),
@@ -16,7 +16,7 @@ EdgeFall fall_of(const std::function<float(float coverage)> &shade, float outsid
     for (int y = 0; y < 60; ++y)
         for (int x = 0; x < 60; ++x) {
             const int inwards =
-                std::min(std::min(x, y), std::min(59 - x, 59 - y)) - 10; // of the square's border
+                std::min(std::min(x, y), std::min(59 - x, 59 - y)) - 10; // from the square's border
             const float a = std::clamp(float(inwards) / 4, 0.0f, 1.0f);
             for (std::size_t k = 0; k < 3; ++k) view.image.at(k, x, y) = (a > 0 ? shade(a) : 0) + outside;
             view.image.at(3, x, y) = a;
@@ -38,7 +38,7 @@ TEST(PremultipliedCheck, LightWithoutCoverageDoesNotTell) {
     EXPECT_FALSE(looks_unpremultiplied(fall_of([](float) { return 1.0f; }, 0.9f)));
 }
 
-// A rim of light twice as bright as the surface.
+// A rim twice as bright as the surface.
 TEST(PremultipliedCheck, BrightRimsAreNoMistake) {
     EXPECT_FALSE(looks_unpremultiplied(fall_of([](float a) { return a < 1 ? 2 * a : 1; })));
 }

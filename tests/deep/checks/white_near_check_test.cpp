@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-// A floor from 1 to 9 before a wall, as `value` writes its depths.
+// A floor from 1 to 9 before a wall, with depths written as `value`.
 bool seems_white_near(const std::function<double(double z)> &value) {
     const Grid grid(64, 64);
     std::vector<float> depths;

@@ -13,7 +13,7 @@ namespace {
 
 const ThinLens lens{.radius = 0.625, .focal_px = 640, .focus = 5}; // R F / focus = 80 px
 
-// Channels Y and A; `depth`: perceptive, pixels.
+// Channels Y and A; `depth`: perceptive depth, pixels.
 Ldi surface(int width, int height, const std::function<double(int x, int y)> &depth, double alpha = 1) {
     return make_ldi(windows_of_size(width, height), {{"Y"}, {"A"}}, [&](int x, int y) {
         return std::vector<Sample>{{lens.radius * lens.focal_px / depth(x, y), {0, float(alpha)}}};
@@ -25,7 +25,7 @@ std::size_t facets_of(const Ldi &ldi) {
     for (const auto &block : find_facets(ldi, lens, 1).blocks) count += block.size();
     return count;
 }
-// A row of depths, three pixels high: two triangles between four neighbours are one link of the row, twice.
+// A row of depths, three pixels high: the two triangles between four neighbours contain one link of the row, twice.
 std::size_t steep_links(const std::vector<double> &depths) {
     return facets_of(surface(int(depths.size()), 3, [&](int x, int) { return depths[std::size_t(x)]; })) / 4;
 }
@@ -49,23 +49,23 @@ TEST(Facets, NoneOfPartialCoverage) {
 TEST(Facets, SilhouettesAreNoSurface) {
     EXPECT_EQ(steep_links({9, 9, 9, 9, 30, 30, 30, 30}), 0u);
     EXPECT_EQ(steep_links({9, 9.1, 9.2, 9.3, 30, 30.1, 30.2, 30.3}), 0u);
-    EXPECT_EQ(steep_links({9, 9, 9, 20, 30, 30, 30}), 0u); // a pixel between them, of mixed depth
+    EXPECT_EQ(steep_links({9, 9, 9, 20, 30, 30, 30}), 0u); // a mixed-depth pixel between them
     EXPECT_EQ(steep_links({30, 9, 30, 9, 30, 9, 30}), 0u);
     EXPECT_EQ(steep_links({10, 12, 14, 16, 40, 42, 44, 46}), 6u); // two slopes, one behind the other
 }
 
 TEST(Facets, SlopesGoOnToWhereTheyEnd) {
     EXPECT_EQ(steep_links({9, 9, 9, 11, 13, 15, 15, 15}), 3u);
-    EXPECT_EQ(steep_links({9, 9, 9, 10, 12, 15, 19, 19}), 4u); // steeper and steeper
+    EXPECT_EQ(steep_links({9, 9, 9, 10, 12, 15, 19, 19}), 4u); // increasingly steep
     EXPECT_EQ(steep_links({10, 12, 14, 16, 14, 12, 10}), 6u);  // a ridge
 }
 
-// A plane of 3 pixels of CoC a pixel, dark, before a bright ground: what of the ground is seen through it.
+// A dark plane of 3 pixels of CoC per pixel before a bright ground: the light of the ground that leaks through.
 struct Tilted {
     static constexpr int width = 40, height = 200, middle = 20;
     static constexpr float plane = 0.25f; // its light
     static double coc(int x) { return 3 * (x - middle); }
-    // Whether a lens point sees the plane there at all: else it looks past its ends.
+    // Whether a lens point sees the plane there; otherwise it looks past its ends.
     static bool covered(double x, double u) {
         const auto seen = [&](int column) { return column + 0.5 + coc(column) * u; };
         const auto [left, right] = std::minmax({seen(0), seen(width - 1)});
@@ -86,8 +86,7 @@ TEST(Facets, NoLightPassesASteepSurface) {
     const Ldi ldi = Tilted::ldi({{"Y"}, {"A"}}, 1, 0);
     const Image image = lens_gather(ldi, lens, ldi.windows.data, {.lens_samples = 256}, silent);
     const auto points = disc_lens_samples(256, 1);
-    for (int y = 61; y < Tilted::height - 61;
-         ++y) // beyond, the plane is seen past its upper and its lower end
+    for (int y = 61; y < Tilted::height - 61; ++y) // beyond, the plane is seen past its upper and lower ends
         for (int x = 10; x < 30; ++x) {
             double past = 0, total = 0;
             for (const LensSample &p : points) {

@@ -13,7 +13,7 @@ constexpr int across = 8;
 constexpr float apart = 4;
 const ThinLens lens{.radius = 0.625, .focal_px = 640, .focus = 5};
 
-// Opaque, from column 8 on of EXR coordinates, a sample in each pixel. `depth`: perceptive, pixels.
+// An opaque sample in each pixel from column 8 of EXR coordinates on. `depth`: perceptive depth, pixels.
 Ldi surface(const std::function<double(int x)> &depth, bool shows_images = false) {
     Windows windows = windows_of_size(4 * across, across);
     windows.data = Imath::Box2i({across, 0}, {3 * across - 1, across - 1});
@@ -24,7 +24,7 @@ Ldi surface(const std::function<double(int x)> &depth, bool shows_images = false
     });
 }
 
-// How many samples are the first ones of their surfaces.
+// The number of samples that are the first of their surfaces.
 std::size_t surfaces_in(const Ldi &ldi) {
     const auto joined = joined_in_cells(ldi, Links(ldi, lens), across, apart);
     std::size_t first = 0;
@@ -46,7 +46,7 @@ TEST(JoinedInCells, ThatStaysAloneWhichIsFlatOrShowsAnImage) {
     EXPECT_EQ(surfaces_in(surface([](int x) { return 20 + 1.5 * x; }, true)), all);
 }
 
-// The first cell has half of the surface; the flat wall is behind its other half.
+// The first cell contains half of the surface; the flat wall is behind its other half.
 TEST(JoinedInCells, ASilhouetteIsNot) {
     EXPECT_EQ(surfaces_in(surface([](int x) { return x < across + 4 ? 60 + 1.5 * x : 20; })),
               2u + across * across);

@@ -13,7 +13,7 @@ namespace {
 const ThinLens lens{.radius = 1.2, .focal_px = 640, .focus = 5};
 constexpr int size = 12;
 
-// A slope, its samples anywhere in their pixels, and from column 6 on another surface far behind it.
+// A slope whose samples are anywhere in their pixels, and from column 6 on another surface far behind it.
 Ldi slope() {
     return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
         const double coc = x < 6 ? -20 + 0.6 * x : 30;
@@ -54,7 +54,7 @@ TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
         }
 }
 
-// The surface has columns 0 to 5, which lean by more than a pixel of CoC from one to the next, and ends before a wall.
+// The surface has columns 0 to 5, leans by more than a pixel of CoC per column, and ends before a wall.
 TEST(Footprint, OfASteepSurfaceSharesItsEdgesWhereThatGoesOn) {
     const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int) {
         return std::vector<Sample>{{depth_of(lens, x < 6 ? -20 + 3 * x : 30), {1, 1, 1, 1}}};

@@ -1,4 +1,4 @@
-// What is joined hides a lamp as its samples do: from all that they hide it from, and hardly from more.
+// Joined samples hide a lamp as the single samples do: everything that these hide, and hardly more.
 #include "base/random.h"
 #include "dof/footprints/joined_footprints.h"
 #include "dof/lens/blocked_fixture.h"
@@ -29,7 +29,7 @@ struct Block : BlockedLdi {
     }
 };
 
-// A board of five columns before a wall, and right of it a pixel of partial coverage.
+// A board of five columns before a wall, and to its right a pixel of partial coverage.
 TEST(JoinedFootprints, OfAFlatBoardAreOne) {
     const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [](int x, int y) {
         std::vector<Sample> samples;
@@ -51,7 +51,8 @@ TEST(JoinedFootprints, OfAFlatBoardAreOne) {
     EXPECT_LT(block.samples.alpha[partial.sample], 1);
 }
 
-// Boards of four columns at several depths, with a slit, whose samples lie nearly in the middles of their pixels; they lean.
+// Leaning boards of four columns at several depths, with a slit. Their samples are nearly in the middles of their
+// pixels.
 Ldi boards(std::uint32_t seed) {
     return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
         std::vector<Sample> samples;
@@ -74,7 +75,7 @@ bool hides(const ShadowedLamp &lamp, Footprint footprint, const Imath::V2f &plac
 TEST(JoinedFootprints, HideWhatTheirSamplesHide) {
     constexpr float rounding = 1e-3f; // pixels
     constexpr float most =
-        1.0f / 8 + 0.01f; // pixels: an edge lies 3/32 beside a sample's at most, and its CoC 1/32
+        1.0f / 8 + 0.01f; // pixels: an edge is at most 3/32 beside a sample's, and its CoC 1/32 off
     int hidden = 0, lit = 0;
     std::size_t samples = 0, surfaces = 0;
     for (std::uint32_t seed = 0; seed < 40; ++seed) {

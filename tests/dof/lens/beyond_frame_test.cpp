@@ -1,5 +1,5 @@
-// What leaves the frame: by hand on a row of pixels, against a slow restatement of the rule, and what the lens makes of it, by
-// the convolution of what goes on for ever.
+// Continuation beyond the frame: by hand on a row of pixels, compared with a slow version of the rule, and through a
+// lens, compared with the convolution of a shape that continues for ever.
 #include "base/grid.h"
 #include "dof/gather_picture.h"
 #include "dof/lens/beyond/beyond_frame.h"
@@ -22,7 +22,7 @@ const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}}, coloured{{"R"}
 double infinite_coc(const ThinLens &of) { return of.radius * of.focal_px / of.focus; }
 double near_of(const ThinLens &of, double c) { return infinite_coc(of) - c; } // perceptive depth
 
-// A row of one sample a pixel at these CoCs, none where it is NAN; its value is its column.
+// A row with one sample per pixel at these CoCs, none where it is NAN. The value is the column.
 Ldi row_of(const std::vector<double> &cocs) {
     return make_ldi(windows_of_size(int(cocs.size()), 1), grey, [&](int x, int) {
         const double c = cocs[std::size_t(x)];
@@ -32,7 +32,7 @@ Ldi row_of(const std::vector<double> &cocs) {
 
 constexpr float unknown = -1, nothing = -2;
 
-// The values of the front samples of a row, of so many pixels on either side of the frame.
+// The values of the front samples of a row, `first` to `last` pixels beyond the frame.
 std::vector<float> values(const BeyondFrame &of, int first, int last) {
     std::vector<float> found;
     for (int x = first; x <= last; ++x) {
@@ -68,7 +68,7 @@ TEST(BeyondFrame, WhatLeavesItGoesOnAsFarAsTheLensSees) {
                                   nothing, nothing, 1})); // up to 8 pixels away
 }
 
-// Rim views saw what is 5 pixels near up to five pixels beyond the frame, so they would have shown the rest of it.
+// Rim views saw surfaces 5 pixels near up to five pixels beyond the frame, so they would have shown the rest of it.
 TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
     const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2; // CoCs 2.7 and 6.5
     const auto beside = [&](double last, const std::vector<double> &seen) {
@@ -77,20 +77,21 @@ TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
         cocs.insert(cocs.end(), seen.begin(), seen.end());
         return values(beyond(row_of(cocs), {{0, 0}, {19, 0}}), 19, 26);
     };
-    // What is 1.2 pixels near was shown at the first pixel, and fills from the second on what the views left. What is nearer
-    // ends where they showed its end, whether it left the frame or not.
+    // A surface 1.2 pixels near was shown at the first pixel; from the second on it fills what the views left open. A
+    // nearer surface ends where the views showed its end, whether it left the frame or not.
     const std::vector<double> ends{near, near, NAN, NAN, NAN};
     EXPECT_EQ(beside(far, ends), (std::vector<float>{19, 20, 21, 19, 19, 19, 19, 19}));
     EXPECT_EQ(beside(near, ends),
               (std::vector<float>{19, 20, 21, unknown, unknown, unknown, unknown, unknown}));
-    // It goes on from where they could look no farther, or from one pixel before, where parallax tears it.
+    // It continues from where they could look no farther, or from one pixel before, where parallax tears it.
     EXPECT_EQ(beside(far, {NAN, NAN, NAN, near, near}),
               (std::vector<float>{19, unknown, 19, 19, 23, 24, 24, 24}));
     EXPECT_EQ(beside(far, {NAN, NAN, NAN, near, NAN}),
               (std::vector<float>{19, unknown, 19, 19, 23, 19, 23, 23}));
 }
 
-// The same views, through a lens of half their aperture: they showed as much, and each surface goes on once, from where it ends.
+// The same views through a lens of half their aperture: they showed as much, and each surface continues once, from its
+// end.
 TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2;
     std::vector<double> cocs(20, far);
@@ -109,7 +110,8 @@ TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     EXPECT_EQ(shut.unseen, open.unseen);
 }
 
-// Three bars as near as the one that the frame cuts off are 2 or 3 pixels wide, others wider or at other depths.
+// Three bars at the depth of the bar that the frame cuts off are 2 or 3 pixels wide; others are wider or at other
+// depths.
 TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     const auto bars = [&](int cut, std::vector<int> widths, double c) {
         std::vector<double> cocs(std::size_t(cut), -2.9);
@@ -125,7 +127,7 @@ TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     EXPECT_EQ(bars(2, {3, 2, 7}, -2.9), (std::vector<float>{2, 2, 2, 2, 0}));
     EXPECT_EQ(bars(3, {2}, -2.9), (std::vector<float>{3, 3, 3, 3, 0}));    // counted in whole pixels
     EXPECT_EQ(bars(4, {2, 1}, -2.9), (std::vector<float>{0, 0, 0, 0, 0})); // much wider than all others
-    EXPECT_EQ(bars(2, {2, 2}, -1.5), (std::vector<float>{0, 0, 0, 0, 0})); // others are not as near
+    EXPECT_EQ(bars(2, {2, 2}, -1.5), (std::vector<float>{0, 0, 0, 0, 0})); // the others have different depths
     EXPECT_EQ(bars(2, {}, -2.9), (std::vector<float>{0, 0, 0, 0, 0}));
 }
 
@@ -160,7 +162,7 @@ TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
     EXPECT_FALSE(all.unseen[all.ldi.windows.index(-1, 0)]);
 }
 
-// A lamp of 5 pixels' radius that is cut off 3 pixels from its middle has 2 pixels beyond.
+// A lamp of radius 5 pixels that is cut off 3 pixels from its middle has 2 pixels beyond.
 TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [](int x, int y) {
         const float v = std::hypot(x + 0.5 - 3, y + 0.5 - 40) < 5 ? 100.0f : y < 10 ? 3.0f : 1.0f;
@@ -174,13 +176,14 @@ TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
     EXPECT_NEAR(value(-1, 40), 100, 1e-4);
     double light = 0; // in units of the border's
     for (int n = 1; n <= 7; ++n) light += double(value(-n, 40)) / 100;
-    EXPECT_NEAR(light, 2 * 1.75, 1); // 2 pixels, and what is left farther away
+    EXPECT_NEAR(light, 2 * 1.75, 1); // 2 pixels, and the remaining light farther away
     EXPECT_EQ(value(-5, 33), 1);
-    EXPECT_EQ(value(-5, 9), 3); // what is not four times as bright goes on
+    EXPECT_EQ(value(-5, 9), 3); // less than four times as bright: continues
     EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
 }
 
-// A lamp of 5 pixels' radius lies 5 pixels beyond the frame, as near as 4 pixels: rim views saw four columns of it.
+// A lamp of radius 5 pixels is 5 pixels beyond the frame at a perceptive depth of 4 pixels: rim views saw four columns
+// of it.
 TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     const Imath::Box2i frame({10, 0}, {79, 79});
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [&](int x, int y) {
@@ -198,7 +201,7 @@ TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     EXPECT_EQ(light(5, 33), 0.01);
 }
 
-// Slowly: each pixel beyond asks what the nearest one of the frame has.
+// Slow version: each pixel beyond the frame asks the nearest pixel of the frame.
 TEST(BeyondFrame, IsWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
         const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
@@ -216,7 +219,7 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
                                                    : SampleRange{0, 0};
         };
         const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
-        // The samples m pixels from the frame beyond which no view looked, or one pixel farther and saw none.
+        // The samples m pixels from the frame beyond which no view looked, or one pixel farther with no sample.
         const auto seen_last = [&](const Imath::V2i &at, const Imath::V2i &step, int m) {
             std::vector<std::uint64_t> found;
             for (const std::uint64_t i : of_pixel(at)) {
@@ -227,7 +230,7 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             }
             return found;
         };
-        // Where the surface in front at q ends beyond the frame, and how wide it is in it.
+        // Where the front surface at q ends beyond the frame, and its width inside it.
         struct End {
             double beyond = INFINITY;
             int width = 0;
@@ -309,7 +312,7 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
     }
 }
 
-// Pictures of shapes that go on for ever, seen in a frame.
+// Pictures of endless shapes, seen in a frame.
 
 using Inside = std::function<bool(double, double)>;
 
@@ -321,7 +324,7 @@ double covered_share(const Inside &inside, int x, int y) {
 
 constexpr int width = 160, height = 90;
 
-// The pixels that five views of a shape so near show of it.
+// The pixels of a shape at that perceptive depth that five views show.
 Windows shown_windows(double near, bool five) {
     Windows windows = windows_of_size(width, height);
     if (!five) return windows;
@@ -330,7 +333,7 @@ Windows shown_windows(double near, bool five) {
     return windows;
 }
 bool in_frame(int x, int y) { return x >= 0 && y >= 0 && x < width && y < height; }
-// Rim views at the left, the right, above and below see no corners.
+// Rim views to the left, right, above and below do not see corners.
 bool in_corner(int x, int y) { return (x < 0 || x >= width) && (y < 0 || y >= height); }
 
 // A shape of value 0.8 at CoC c before nothing.
@@ -351,7 +354,7 @@ Ldi before_sky(const Inside &inside, double c, const ThinLens &by, bool five) {
     });
 }
 
-// How much each pixel sees of a shape as its pixels know it, up to 70 around the frame.
+// How much of a shape each pixel sees, given the shape's pixels up to 70 beyond the frame.
 class Convolution {
 public:
     explicit Convolution(const Inside &inside) : grid_(width + 2 * around, height + 2 * around) {
@@ -360,7 +363,7 @@ public:
             covered_.push_back(covered_share(inside, at.x, at.y));
         }
     }
-    // What a lens point shows of a sample is one pixel wide, and so is the pixel that sees it: so it is linear between pixels.
+    // A lens point shows a sample one pixel wide to a pixel one pixel wide, so the result is linear between pixels.
     double at(double c, int x, int y) const {
         static const auto points = spiral_lens_points(2048);
         double covered = 0;
@@ -381,7 +384,7 @@ private:
     std::vector<double> covered_;
 };
 
-// The largest difference of a channel from expected(x, y): along the borders, and across the middle.
+// The largest difference of a channel from expected(x, y), along the borders and across the middle.
 double off(const Ldi &ldi, const ThinLens &by, std::size_t channel,
            const std::function<double(int, int)> &expected) {
     Progress silent;

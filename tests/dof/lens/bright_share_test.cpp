@@ -1,4 +1,4 @@
-// How much of what is around is as bright, against a count, and what that makes of lamps.
+// The share of the surroundings that is as bright as a sample, compared with a count, and its effect on lamps.
 #include "base/random.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/bright_share.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr int size = 256;
 const ThinLens lens{.radius = 2.4, .focal_px = 640, .focus = 5};
 
-// All of CoC c; the first columns are as bright as that, the others dark.
+// All samples have CoC c; the first columns have brightness `bright`, the others are dark.
 Ldi half_bright(double c, int columns, float bright) {
     return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
         const float v = x < columns ? bright : 0.01f + 0.001f * float(random_unit(x, y, 1));
@@ -31,7 +31,7 @@ std::uint32_t sample_at(const BlockedSamples &samples, int x, int y) {
     return BlockedSamples::background;
 }
 
-// Boxes that end at cells, which are 32 pixels: about x = 128 they would be from 96 to 160, but for half a pixel.
+// Boxes end at cells of 32 pixels: around x = 128 they would be from 96 to 160, except for half a pixel.
 TEST(BrightShare, IsTheCountOfWhatIsHalfAsBright) {
     for (const int columns : {0, 96, 128, 160, 256}) {
         const Ldi ldi = half_bright(-64, columns, 3);
@@ -61,8 +61,8 @@ TEST(BrightShare, ChangesContinuouslyWithThePlaceAndTheBrightness) {
         EXPECT_NEAR(share.around(i, float(brightness)), share.around(i, float(1.01 * brightness)), 0.02);
 }
 
-// A strip of the bright surface stands four times out of what is dark beside it, and is no lamp: lens points see it well. A lamp
-// in the dark is one, and so is one on the surface.
+// A strip of the bright surface is four times as bright as its dark neighbourhood, but is not a lamp, because lens
+// points sample it well. A lamp in the dark is one, and so is a lamp on the surface.
 TEST(TakeHighlights, TakesNoBrightSurfaceForALamp) {
     const auto taken = [](double c, float lamp) {
         Ldi ldi = half_bright(c, 140, 0.4f);

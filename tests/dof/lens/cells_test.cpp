@@ -1,4 +1,5 @@
-// Tiles that are gathered in cells: the interpolation by closed forms, pictures against those of lens points at every pixel.
+// Tiles gathered in cells: the interpolation compared with closed forms, pictures compared with lens points at every
+// pixel.
 #include "base/random.h"
 #include "dof/gather_rows.h"
 #include "dof/lens/cells.h"
@@ -19,13 +20,13 @@ namespace {
 
 constexpr int size = lens_tile_size;
 
-// A tile of cells, each the mean of its pixels, of which a function gives the values.
+// A tile of cells, each the mean of its pixels, whose values a function gives.
 struct CellPicture {
     std::vector<float> values = std::vector<float>(size * size * 4),
                        known = std::vector<float>(size * size, 1.0f);
     TileCells cells;
 
-    // at(x, y): of the middle of a pixel.
+    // at(x, y): the value at the middle of a pixel.
     CellPicture(const TileCells &of, const std::function<double(double x, double y)> &at) : cells(of) {
         for (int y = 0; y < of.count() * of.across; ++y)
             for (int x = 0; x < of.count() * of.across; ++x) {
@@ -104,7 +105,7 @@ struct Scene {
     Image gather(const LensGatherOptions &options) {
         return lens_gather(ldi, lens, ldi.windows.data, options, silent);
     }
-    // The cells of its first tile.
+    // The cell size of its first tile.
     int cell_size(const LensGatherOptions &options) {
         const GatherScene scene = prepare(ldi, lens, ldi.windows.data, options);
         TilePlan plan(scene, options, ldi.windows);
@@ -113,7 +114,7 @@ struct Scene {
     }
 };
 
-// Each sample shows one of so many objects, in stripes of 5 pixels of its column; there are ranks for all of them.
+// Each sample shows one of `objects` objects, in stripes of 5 columns; the file has ranks for all of them.
 Ldi with_objects(Ldi ldi, int objects) {
     std::vector<Channel> channels = channels_with_matte(objects / 2);
     channels.erase(channels.begin(), channels.begin() + 4); // R, G, B and A are there
@@ -158,7 +159,7 @@ TEST(Cells, AreAsLargeAsTheBlurAllows) {
     EXPECT_EQ(Scene(70, -65).cell_size({.lens_samples = 64}), 1);
 }
 
-// 1024 lens points at every pixel are the truth: 4096 are nearer to the cells, and make the difference larger.
+// The reference is 1024 lens points at every pixel. 4096 are nearer to the cells, so they make the difference larger.
 TEST(Cells, ThePictureIsThatOfManyLensPoints) {
     for (const auto &[wall, card] :
          {std::pair(70.0, -65.0), std::pair(70.0, 40.0), std::pair(-40.0, -60.0)}) {
@@ -170,8 +171,8 @@ TEST(Cells, ThePictureIsThatOfManyLensPoints) {
     }
 }
 
-// 40 objects, more than are gathered at once, in stripes on the card and the wall: the lens sees something of each pixel's light in
-// all of them together.
+// 40 objects, more than are gathered at once, in stripes on the card and the wall. The lens sees part of each pixel's
+// light in all of them together.
 TEST(Cells, CoveragesOfObjectsAddUpToAll) {
     Scene scene;
     scene.ldi = with_objects(std::move(scene.ldi), 40);
@@ -189,7 +190,7 @@ TEST(Cells, CoveragesOfObjectsAddUpToAll) {
     }
 }
 
-// Whatever else the lens or the samples are: no farther from 1024 lens points at every pixel than as many as a tile would have.
+// Any lens and samples: no farther from 1024 lens points at every pixel than the number of points a tile would have.
 struct Beside {
     const char *name;
     LensLooks looks = {};
@@ -252,8 +253,8 @@ TEST(Cells, ThePictureIsThatOfManyLensPointsWhateverTheLensAndTheSamplesAre) {
     }
 }
 
-// Its disc has sharp edges, and is cut by the card before it. It is spread exactly: of 256 lens points and of 4096, discs differ by
-// 5e-4 of the peak.
+// Its disc has sharp edges, and the card before it cuts the disc. The disc is spread exactly: with 256 and 4096 lens
+// points it differs by 5e-4 of the peak.
 TEST(Cells, ALampKeepsItsDisc) {
     for (const double card : {-66.0, 40.0}) {
         Scene scene(70, card, 4000), without(70, card, 0);
@@ -279,7 +280,7 @@ TEST(Cells, AreTheSameBitsByAnyThreads) {
     EXPECT_EQ(scene.gather({}).values, several.values);
 }
 
-// A band lacks rows below or above, and the blur is wider than the rows that are prepared beside those that it sees.
+// A band lacks rows below or above, and the blur is wider than the rows prepared beside the visible ones.
 TEST(Cells, AreTheSameBitsInBands) {
     constexpr int width = 72, height = 900, gathered = 2 * lens_tile_size;
     Scene scene(-125, -140, 4000, width, height);
@@ -287,7 +288,7 @@ TEST(Cells, AreTheSameBitsInBands) {
     PackedRows rows(scene.ldi.windows);
     rows.append(scene.ldi);
     const RowReach reach = reach_of(rows, lens, {});
-    EXPECT_LT(gathered + reach.seen + reach.prepared, height); // else a band has all rows
+    EXPECT_LT(gathered + reach.seen + reach.prepared, height); // otherwise a band has all rows
     EXPECT_GT(125, reach.prepared + 16);                       // a block beside
     for (const int first : {0, height - gathered}) {
         const Imath::Box2i window({0, first}, {width - 1, first + gathered - 1});

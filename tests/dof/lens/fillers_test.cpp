@@ -1,5 +1,5 @@
-// What goes on behind what: by hand on a row of pixels, and against a slow restatement; and what the lens gather makes
-// of it, by closed forms.
+// Fillers: by hand on a row of pixels, and compared with a slow version; and their effect in the lens gather, compared
+// with closed forms.
 #include "dof/lens/fillers.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/lens_points.h"
@@ -18,7 +18,7 @@ namespace {
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5}; // CoC up to 7.7 px behind focus
 const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}};
 
-// A row of one sample a pixel, at these CoCs; none where it is NAN. The value of a sample is its column.
+// A row with one sample per pixel at these CoCs, none where it is NAN. The value of a sample is its column.
 Ldi row_of(const std::vector<double> &cocs) {
     return make_ldi(windows_of_size(int(cocs.size()), 1), grey, [&](int x, int) {
         const double c = cocs[std::size_t(x)];
@@ -26,7 +26,7 @@ Ldi row_of(const std::vector<double> &cocs) {
     });
 }
 
-// The value of the filler of each pixel; -1: there is none, -2: it is nothing.
+// The value of the filler of each pixel; -1: no filler, -2: a filler of nothing.
 std::vector<float> filled(const Ldi &ldi, const KnownPixels &known) {
     std::vector<float> values(ldi.windows.pixels(), -1);
     for (const Filler &filler : find_fillers(ldi, lens, known)) {
@@ -42,12 +42,12 @@ TEST(Fillers, TheFartherSideGoesOnBehindTheNearerOne) {
     // 2.5 pixels nearer: the lens sees three pixels past an edge, four along the row if it runs at 45 degrees.
     EXPECT_EQ(filled(row_of({3, 3, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5})),
               (std::vector<float>{-1, -1, 1, 1, 1, 1, -1, -1, -1}));
-    // Between two sides the nearer one, and the mean in the middle; weighed by how far they are.
+    // Between two sides the nearer one, and the mean in the middle; weighted by distance.
     const std::vector<float> between = filled(row_of({4, -4, -4, -4, 4}));
     EXPECT_FLOAT_EQ(between[1], (0 * 1 + 4 / 3.0f) / (1 + 1 / 3.0f));
     EXPECT_FLOAT_EQ(between[2], 2);
     EXPECT_FLOAT_EQ(between[3], (0 / 3.0f + 4) / (1 + 1 / 3.0f));
-    // One surface does not go on behind itself, however steep.
+    // One surface does not continue behind itself, however steep.
     EXPECT_EQ(filled(row_of({3, 2.6, 2.2, 1.8, 1.4, 1, 0.6})), std::vector<float>(7, -1));
     // If two continue, the one whose edge is nearer.
     EXPECT_EQ(filled(row_of({7, 7, 3, -3, -3})), (std::vector<float>{-1, -1, 1, 2, 2}));
@@ -67,7 +67,7 @@ TEST(Fillers, WhereNothingIsKnownNoneGoesOn) {
               (std::vector<float>{-1, -1, -1, -1, 3, 3, -1, -1, -1, -1, -1}));
 }
 
-// A ground of coverage 0.8 goes on opaque; one of less than half does not.
+// A ground of coverage 0.8 continues as opaque; one of less than half does not.
 TEST(Fillers, GoOnOpaque) {
     const auto picture = [](float behind) {
         return make_ldi(windows_of_size(4, 1), grey_alpha, [behind](int x, int) {
@@ -80,8 +80,8 @@ TEST(Fillers, GoOnOpaque) {
     EXPECT_EQ(filled(picture(0.4f)), std::vector<float>(4, -1));
 }
 
-// A veil behind a bar, which ends there in what covers more: views saw it, so that nothing goes on behind it. What lies farther
-// does.
+// A veil behind a bar ends there in something of higher coverage. Views saw that, so the veil does not continue behind
+// it; a farther surface does.
 TEST(Fillers, AVeilThatWasSeenIsNotFilledUp) {
     const auto picture = [](double coc) {
         return make_ldi(windows_of_size(3, 1), grey_alpha, [coc](int x, int) {
@@ -95,7 +95,7 @@ TEST(Fillers, AVeilThatWasSeenIsNotFilledUp) {
     EXPECT_EQ(filled(picture(3)), (std::vector<float>{-1, 0.5f, 0.5f}));
 }
 
-// Slowly: each pixel looks along its row and column for the nearest ground that goes on as far as to it.
+// Slow version: each pixel searches its row and column for the nearest ground that continues up to it.
 TEST(Fillers, AreWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
         const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
@@ -112,7 +112,7 @@ TEST(Fillers, AreWhatTheRuleSays) {
         const auto goes_on = [&](double from, double to, int n) {
             return to >= 0 && to - from > std::max(0.5, (n - 1) / std::sqrt(2.0));
         };
-        const auto distance = [&](int x, int y, int dx, int dy) { // 1000: none goes on
+        const auto distance = [&](int x, int y, int dx, int dy) { // 1000: none continues
             for (int n = 1; ldi.windows.grid().contains(x - n * dx, y - n * dy); ++n) {
                 const double from = ground(x - n * dx, y - n * dy);
                 bool on = from >= 0;
@@ -123,7 +123,7 @@ TEST(Fillers, AreWhatTheRuleSays) {
             return 1000;
         };
         std::vector<double> expected(ldi.windows.pixels(), -1),
-            depths = expected; // of the ground that goes on
+            depths = expected; // of the ground that continues
         for (int y = 0; y < 50; ++y)
             for (int x = 0; x < 70; ++x) {
                 int nearest = 1000;
@@ -147,7 +147,8 @@ TEST(Fillers, AreWhatTheRuleSays) {
     }
 }
 
-// A red post at CoC -4 before a grey wall at CoC 4; `edge` is the wall's last pixel. Returns red and green of what fills the next.
+// A red post at CoC -4 before a grey wall at CoC 4; `edge` is the wall's last pixel. Returns red and green of the
+// filler of the next pixel.
 std::array<float, 2> filled_beside(const std::vector<Sample> &edge) {
     const Ldi ldi = make_ldi(windows_of_size(6, 1), rgba_channels(), [&](int x, int) {
         if (x == 2) return edge;
@@ -165,10 +166,10 @@ std::array<float, 2> filled_beside(const std::vector<Sample> &edge) {
 TEST(Fillers, ShowNothingOfWhatHidesThem) {
     using Colour = std::array<float, 2>;
     const double wall = depth_of(lens, 4), post = depth_of(lens, -4);
-    // A third of the edge shows the post; something green is no mixture.
+    // A third of the edge shows the post; a green edge is not a mixture.
     EXPECT_EQ(filled_beside({{wall, {0.6f, 1 / 3.0f, 1 / 3.0f, 1}}}), (Colour{0.5f, 0.5f}));
     EXPECT_EQ(filled_beside({{wall, {0.4f, 0.6f, 0.4f, 1}}}), (Colour{0.4f, 0.6f}));
-    // What was unmixed, or is another surface, is left as it is.
+    // Unmixed samples, and other surfaces, stay as they are.
     EXPECT_EQ(filled_beside({{post, {0.27f, 0, 0, 0.333f}}, {wall, {0.55f, 0.45f, 0.45f, 1}}}),
               (Colour{0.55f, 0.45f}));
     EXPECT_EQ(filled_beside({{depth_of(lens, 2), {0.6f, 1 / 3.0f, 1 / 3.0f, 1}}}), (Colour{0.6f, 1 / 3.0f}));
@@ -189,8 +190,8 @@ Ldi shape_over_nothing(const Windows &windows, const ThinLens &by, const Inside 
 
 constexpr int side = 160 + 2 * 33; // no lens point looks past the border
 
-// The largest difference from the shape convolved with the disc of the lens, averaged over the pixel: along a row and
-// a column and the diagonal.
+// The largest difference from the shape convolved with the disc of the lens, averaged over the pixel: along a row, a
+// column and the diagonal.
 double off_from_convolution(const Inside &inside, double c, const ThinLens &by) {
     const Windows windows = windows_of_size(side, side);
     Progress silent;
@@ -236,8 +237,8 @@ Image gather(const Ldi &ldi, const ThinLens &by = lens) {
     return lens_gather(ldi, by, ldi.windows.data, {.lens_samples = 256}, silent);
 }
 
-// A plane of 1 that comes nearer by 0.3 pixels of CoC a pixel, before a wall of 0 that goes on behind its edge: no
-// crack that parallax tears shows the wall.
+// A plane of value 1 that comes nearer by 0.3 pixels of CoC per pixel, before a wall of 0 that continues behind its
+// edge: no crack by parallax shows the wall.
 TEST(Fillers, ASlantedPlaneStaysClosed) {
     const Ldi ldi = make_ldi(windows_of_size(100, 60), grey, [](int x, int) {
         return std::vector<Sample>{x < 40 ? Sample{depth_of(lens, 6), {0}}
@@ -247,7 +248,7 @@ TEST(Fillers, ASlantedPlaneStaysClosed) {
     for (int x = 40 + 8; x < 100; ++x) ASSERT_NEAR(image.at(0, x, 30), 1, 1e-5) << x;
 }
 
-// What lies beside a pillar goes on behind it; and not the lamps.
+// The surfaces beside a pillar continue behind it, but lamps do not.
 TEST(Fillers, LampsDoNotGoOn) {
     const auto picture = [](float lamp) {
         return make_ldi(windows_of_size(120, 80), rgba_channels(), [lamp](int x, int y) {
@@ -269,7 +270,7 @@ TEST(Fillers, LampsDoNotGoOn) {
     EXPECT_NEAR(light(gather(picture(100))) - light(gather(picture(0.1f))), 99.9 * seen, 0.03 * 99.9);
 }
 
-// Beyond the picture nothing is made up: the border of a picture that goes on is the mean of what is known.
+// Nothing is invented beyond the picture: the border of a picture that continues is the mean of the known part.
 TEST(Fillers, NothingIsInventedBeyondTheData) {
     const Ldi ldi = make_ldi(windows_of_size(80, 40), grey, [](int x, int) {
         return std::vector<Sample>{{depth_of(lens, 5), {x == 0 ? 100.0f : 1.0f}}};
@@ -287,7 +288,7 @@ TEST(Fillers, NothingIsInventedBeyondTheData) {
             }
         expected += 99 * double(hit) / known;
     }
-    EXPECT_NEAR(sum, expected, 0.02 * expected); // a border that went on outwards would give some 200
+    EXPECT_NEAR(sum, expected, 0.02 * expected); // a border continued outwards would give about 200
     EXPECT_TRUE(find_fillers(ldi, lens, ldi.windows.data).empty());
 }
 

@@ -1,4 +1,4 @@
-// The pixels of one lamp share shadows, which are those of each to within a fiftieth of the disc.
+// The pixels of one lamp share shadows, which equal the shadows for each pixel to within a fiftieth of the disc.
 #include "base/random.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlight_shadows.h"
@@ -22,14 +22,14 @@ constexpr double lamp_coc = 280; // eight pixels in a group
 const ThinLens lens{.radius = 2.4, .focal_px = 640, .focus = 5};
 const Imath::Box2i box({0, 0}, {size - 1, size - 1});
 
-// A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it that lie about a CoC.
+// A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it at about one CoC.
 struct LampBehindBoards : BlockedLdi {
     BlockedSamples solids;
     BlockFootprints footprints, solid_footprints;
     std::vector<std::uint32_t> lamp, blocks;
     Highlights highlights;
 
-    // Boards at one depth, and solids or samples that many pixels of CoC behind them.
+    // Boards at one depth, and solids or samples `behind` pixels of CoC behind them.
     static Ldi solid_boards(double boards, double behind, bool are_solid) {
         return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
@@ -68,7 +68,7 @@ struct LampBehindBoards : BlockedLdi {
         highlights.sample = lamp;
     }
 
-    // The lit share at each pixel of the tile at `origin`, for one sample of the lamp after the other.
+    // The lit share at each pixel of the tile at `origin`, for each sample of the lamp in turn.
     std::vector<float> lit(bool together, const Imath::V2i &origin = {0, 0},
                            const ShadowLists *lists = nullptr) {
         HighlightShadows shadows(highlights, {samples, footprints}, {solids, solid_footprints});
@@ -93,9 +93,9 @@ double mean(std::span<const float> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-// Shadows of boards in focus lie where the boards do, whatever place of the lamp they are seen from. Others are off by |1 - m|
-// times the distance to the middle of the group, which is four pixels on average; boards of 16 pixels, two fifths of all, have
-// edges on every (16 m) pixels, across and down.
+// Shadows of boards in focus are at the boards, seen from any point of the lamp. Other shadows are off by |1 - m| times
+// the distance to the middle of the group, four pixels on average. Boards of 16 pixels, two fifths of all, have edges
+// every (16 m) pixels, across and down.
 TEST(HighlightShadows, OfAGroupAreThoseOfEachSample) {
     for (const double boards : {0.5, -40.0, -280.0, 90.0, 130.0}) {
         const Ldi ldi = LampBehindBoards::scene(boards);
@@ -107,12 +107,12 @@ TEST(HighlightShadows, OfAGroupAreThoseOfEachSample) {
         for (std::size_t i = 0; i < alone.size(); ++i) off += std::abs(double(together[i] - alone[i]));
         EXPECT_LE(off / double(alone.size()), 2 * 4 * std::abs(1 - m) / (16 * m) * 0.5 + 0.01) << boards;
         EXPECT_NEAR(mean(together), mean(alone), 0.02) << boards;
-        EXPECT_LT(mean(alone), 0.95) << boards; // they do hide the lamp
+        EXPECT_LT(mean(alone), 0.95) << boards; // boards really hide the lamp
         EXPECT_GT(mean(alone), 0.1) << boards;
     }
 }
 
-// A list holds what casts on any tile of the disc, so that tiles may be asked for in any order.
+// A list holds everything that casts on any tile of the disc, so tiles may be requested in any order.
 TEST(HighlightShadows, AreTheSameByListsOfTheWholeDisc) {
     for (const double boards : {-40.0, 90.0, 0.9 * lamp_coc}) {
         const Ldi ldi = LampBehindBoards::scene(boards);
@@ -144,7 +144,7 @@ TEST(ShadowLists, AreFoundOnceAndKeptWhereTheyAreShort) {
         };
         const auto *first = lists.of(0, find), *again = lists.of(0, find);
         EXPECT_EQ(first, again);
-        EXPECT_EQ(lists.of(1, find), nullptr); // is not the first of its group
+        EXPECT_EQ(lists.of(1, find), nullptr); // not the first of its group
         return std::pair(found, first ? first->size() : 0);
     };
     EXPECT_EQ(times_found(7), std::pair(1, std::size_t(7)));
@@ -228,7 +228,7 @@ TEST(ShadowAreas, BoundAllThatIsNearer) {
     }
 }
 
-// As deep as that, they lie at the same place, and cast the same shadows as things that are seen.
+// At that depth they are at the same position, and cast the same shadows as visible things.
 TEST(HighlightShadows, WhatIsSolidCastsThem) {
     const auto lit = [](bool are_solid) {
         const Ldi ldi = LampBehindBoards::solid_boards(40, 30, are_solid);

@@ -28,7 +28,7 @@ struct Blocked : BlockedLdi {
     }
 };
 
-// A plane of CoC c, of a random brightness from 1/2 to 1, on which some pixels shine.
+// A plane of CoC c with random brightness from 1/2 to 1, and some shining pixels.
 Ldi shining_plane(int size, const ThinLens &lens, double c, const std::function<float(int x, int y)> &shine) {
     Windows windows = windows_of_size(size, size);
     windows.pixel_aspect = float(lens.pixel_aspect);
@@ -60,7 +60,7 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
     }
 }
 
-// Four fifths of the picture are dark, but were not seen: what shines beside them does not stand out of them.
+// Four fifths of the picture are dark but unseen, so the shining pixels beside them do not stand out.
 TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
     const Ldi ldi = shining_plane(64, wide, 20, [](int x, int y) {
         const bool bright = x < 12 && (x + y) % 3 == 0;
@@ -71,11 +71,11 @@ TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
     const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
     ASSERT_EQ(highlights.sample.size(), 1u);
     EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 5.5f);
-    // Where nothing was seen, what is there is all there is to ask.
+    // Where nothing was seen, all the existing samples are asked.
     EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 240u);
 }
 
-// Only the dark part was seen. What is made up beside it is bright all over, and only its lamp stands out of that.
+// Only the dark part was seen. The made-up part beside it is bright all over, and only its lamp stands out of it.
 TEST(TakeHighlights, AsksWhatIsMadeUpToStandOutOfItself) {
     const Ldi ldi = shining_plane(64, wide, 20, [](int x, int y) {
         return x < 12 ? 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1)) : x == 40 && y == 40 ? 60.0f : 0.0f;
@@ -93,7 +93,7 @@ TEST(TakeHighlights, TakesNothingThatIsNoBrighterThanOther) {
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, nothing), wide).take().sample.empty());
 }
 
-// A bar of a fifth of the picture, whose brightness is common beside it, but which stands out of nothing alone.
+// A bar of a fifth of the picture. Its brightness is common around it, but it stands out of the empty part.
 TEST(TakeHighlights, TakesAllOfAThinElementOverNothing) {
     const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int y) {
         const float v = float(0.5 + 0.5 * random_unit(x, y, 1));
@@ -105,7 +105,7 @@ TEST(TakeHighlights, TakesAllOfAThinElementOverNothing) {
     for (const std::uint32_t i : highlights.sample) ASSERT_EQ(blocked.colours.at(red_channel, i), 0);
 }
 
-// As it becomes brighter, a sample spreads more and more, without a step where it becomes a highlight.
+// As a sample becomes brighter, more and more of it is spread, without a step where it becomes a highlight.
 TEST(TakeHighlights, BeginsWithNothing) {
     float last = 0;
     for (float brightness = 2; brightness < 8; brightness += 0.05f) {
@@ -124,9 +124,10 @@ TEST(TakeHighlights, TakesAWholeLampOfSixteenPixels) {
     EXPECT_EQ(Blocked(shining_plane(96, wide, 9, shine), wide).take().sample.size(), 256u);
 }
 
-// Their number is bounded however much shines, for each costs the area of its disc: one sample in five (highlights.h). Here
-// two in five shine, by ten to the power of 30 r for r up to 0.4. Four of five samples stay below r = 0.2, and four times
-// that is r = 0.2 + log10(4) / 30: 18 % stand out. Windows of 1024 samples tell their level to 0.013.
+// Their number is bounded for any number of shining samples, because each costs the area of its disc: one sample in
+// five (highlights.h). Here two in five shine, by ten to the power of 30 r for r up to 0.4. Four of five samples stay
+// below r = 0.2, and four times that is r = 0.2 + log10(4) / 30: 18 % stand out. Windows of 1024 samples measure their
+// level to 0.013.
 TEST(TakeHighlights, AreAtMostOneSampleInFive) {
     const auto sparks = [](int x, int y) {
         const double r = random_unit(x, y, 2);
@@ -190,7 +191,7 @@ TEST(LensGatherOfAPoint, KeepsItsEnergyPlaceAndShape) {
 }
 
 std::shared_ptr<const AperturePicture> coloured_halves() {
-    // The left half is red and the right half is green; blue passes everywhere.
+    // The left half of the lens is red and the right half green; blue passes everywhere.
     return std::make_shared<AperturePicture>(AperturePicture{2, 1, {1, 0, 1, 0, 1, 1}});
 }
 
@@ -203,7 +204,7 @@ TEST(LensGatherOfAPoint, IsThePictureOfTheAperture) {
             const int size = 2 * int(std::abs(c) / std::min(1.0, shape.squeeze)) + 12;
             const PixelLamp lamp{{size / 2, size / 2 + 1}, 0.3f, -0.2f, c};
             const Image image = gather(lamp_alone(size, wide, lamp), wide, {.aperture = shape});
-            // A disc has no spread of its own: blades that are round, and weigh the same.
+            // A disc has no spread of its own: round blades of equal weight.
             ApertureShape described = shape;
             if (Aperture(shape).disc()) described.spherical = 1e-12;
             const LampSpread spread =
@@ -250,8 +251,8 @@ double disc_left_of(double t) {
     return t * std::sqrt(1 - t * t) + std::asin(t) + std::numbers::pi / 2;
 }
 
-// Through lens point u the edge lies at edge + c' u.x, and the lamp at 40 + c u.x: it is seen where u.x (c' - c) >= 40 - edge
-// does not hold, so each pixel shines by the share of its light that comes through that part of the lens.
+// Through lens point u the edge is at edge + c' u.x, and the lamp at 40 + c u.x. The lamp is hidden where u.x (c' - c)
+// >= 40 - edge, so each pixel shines by the share of its light from the rest of the lens.
 TEST(LensGatherOfAPoint, ShinesByTheShareOfTheLensThatSeesIt) {
     struct Case {
         double coc, coc_before;
@@ -261,7 +262,7 @@ TEST(LensGatherOfAPoint, ShinesByTheShareOfTheLensThatSeesIt) {
         const int size = 80;
         const Image image = gather(lamp_behind_edge(size, wide, c.coc, c.coc_before, c.edge), wide);
         const double magnification = c.coc / (c.coc - c.coc_before);
-        const double shadow = 40 + magnification * (c.edge - 40); // hidden: on the farther side of that
+        const double shadow = 40 + magnification * (c.edge - 40); // hidden: on the farther side
         double worst = 0, sum = 0, expected_sum = 0;
         const double radius = std::abs(c.coc);
         for (int x = 0; x < size; ++x) {
@@ -286,8 +287,9 @@ TEST(LensGatherOfAPoint, ShinesByTheShareOfTheLensThatSeesIt) {
 // The area of the unit disc at a < x < b.
 double disc_between(double a, double b) { return b <= a ? 0 : disc_left_of(b) - disc_left_of(a); }
 
-// A thin post x in [39, 43) before a lamp in the middle of pixel (36, 36): the share of the lens that sees it, by the area of
-// the disc on either side of the post. The lamp sees its left edge at the u.x of (39 - 36.5) = u.x (c - c'), its right edge alike.
+// A thin post x in [39, 43) before a lamp in the middle of pixel (36, 36): the share of the lens that sees the lamp, by
+// the area of the disc on either side of the post. The lamp sees the left edge at the u.x with (39 - 36.5) = u.x (c -
+// c'), the right edge likewise.
 struct Post {
     double left = 39, right = 43;
     double share_seen(const ThinLens &lens, double lamp_z, double post_z) const {
@@ -310,9 +312,9 @@ double light_in(const Image &image) {
     return sum;
 }
 
-// In steps of focus (from 2.4 pixels of CoC behind it to 0.9 in front) and of the aperture, the light is the share of the lens
-// that sees the lamp: to 0.2 %, as the cells of the lens have 64 points each in rows and columns of their own, so that an edge
-// that crosses the 32 columns of cells hides 1/2048 of the lens at a time.
+// In steps of focus (from 2.4 pixels of CoC behind it to 0.9 in front) and of the aperture, the light is the share of
+// the lens that sees the lamp, to 0.2 %: the cells of the lens have 64 points each in separate rows and columns, so an
+// edge that crosses the 32 columns of cells hides 1/2048 of the lens at a time.
 TEST(LensGatherOfAPoint, BehindAPostShinesByItsShareInSmallStepsOfFocusAndAperture) {
     const Post post;
     const double lamp_z = 8, post_z = 2;
@@ -331,8 +333,8 @@ TEST(LensGatherOfAPoint, BehindAPostShinesByItsShareInSmallStepsOfFocusAndApertu
     EXPECT_GT(most, 0.85);
 }
 
-// A lamp that goes through focus shrinks and grows without a pop: no pixel's second
-// difference is more than an eighth of what the lamp gives there. (But in focus itself, as light beside the pixel grows with |CoC|.)
+// A lamp that goes through focus shrinks and grows smoothly: no pixel's second difference exceeds an eighth of the
+// lamp's light there, except in focus, because light beside the pixel grows with |CoC|.
 TEST(LensGatherOfAPoint, GoesThroughFocusSmoothly) {
     const Post post;
     const Ldi ldi = post.ldi(8, 2);
@@ -349,7 +351,7 @@ TEST(LensGatherOfAPoint, GoesThroughFocusSmoothly) {
             }
 }
 
-// Nothing else moves: from frame to frame each pixel changes as the closed form above does, without pops.
+// Nothing else moves: from frame to frame each pixel follows the closed form above, without jumps.
 TEST(LensGatherOfAPoint, StaysSteadyInAPullOfFocus) {
     const int size = 80, frames = 12;
     std::vector<Image> pictures;
@@ -367,11 +369,11 @@ TEST(LensGatherOfAPoint, StaysSteadyInAPullOfFocus) {
                 const auto at = [&](int f) { return double(pictures[std::size_t(f)].at(red_channel, x, y)); };
                 worst = std::max(worst, std::abs(at(frame - 1) - 2 * at(frame) + at(frame + 1)));
             }
-    EXPECT_LT(worst, brightness / 8); // yes or no would make it `brightness`
+    EXPECT_LT(worst, brightness / 8); // a binary decision would make it `brightness`
 }
 
-// A round lamp of some pixels' diameter before a dim wall; nothing hides it, so its disc is even but for the rim, and all its
-// light is in it.
+// A round lamp some pixels wide before a dim wall. Nothing hides it, so its disc is even except for the rim, and holds
+// all its light.
 TEST(LensGatherOfALamp, IsAnEvenDisc) {
     for (const double diameter : {1.0, 3.0, 10.0})
         for (const double c : {30.0, 60.0, 140.0}) {

@@ -40,8 +40,8 @@ double rms_difference(const Image &a, const Image &b) {
     return std::sqrt(sum / double(a.values.size()));
 }
 
-// What a pixel of a plane of CoC c shows of the pixels of the plane around it: squares displaced by the points of
-// the disc, averaged over the pixel. [(dx, dy)] to weight.
+// The weights with which a pixel of a plane of CoC c shows the pixels around it, [(dx, dy)] to weight: squares
+// displaced by the points of the disc, averaged over the pixel.
 std::map<std::pair<int, int>, double> disc_of_squares(double c, double aspect) {
     constexpr int points = 20000;
     std::map<std::pair<int, int>, double> weights;
@@ -96,8 +96,8 @@ TEST(LensGather, PlanesAreConvolvedWithTheirDiscs) {
         }
 }
 
-// With light and dark rows, a lens shows in pixels twice as wide as high what it shows at twice the CoC in square ones.
-// They are as high in a pull of focus: none stays sharp until it jumps.
+// With light and dark rows, a lens shows in pixels twice as wide as high the same as at twice the CoC in square ones.
+// The height is continuous in a focus pull: nothing stays sharp and then jumps.
 TEST(LensGather, ADiscBlursAsSoonAsItIsHighEnough) {
     const auto column = [](double c, double aspect) {
         ThinLens by = lens;
@@ -120,7 +120,7 @@ TEST(LensGather, ADiscBlursAsSoonAsItIsHighEnough) {
     }
 }
 
-// Through one point of the lens, a plane is moved by its CoC, as it is.
+// Through one point of the lens, a plane is displaced by its CoC and otherwise unchanged.
 TEST(LensGatherThroughAPoint, PlanesAreMoved) {
     Plane plane(5, 1);
     const Image seen = gather(plane.ldi, plane.by, {.point = Imath::V2d(0.6, -0.8)});
@@ -128,7 +128,7 @@ TEST(LensGatherThroughAPoint, PlanesAreMoved) {
         for (int x = 10; x < 70; ++x) EXPECT_EQ(seen.at(0, x + 3, y + 4), float(texture(x, y)));
 }
 
-// To the right of a near half, the lens looks past its edge: what goes on behind it is marked, all else as it is.
+// Past the edge of a near half on the left, the filler behind it is marked, and everything else is unchanged.
 TEST(LensGatherThroughAPoint, WhatNoViewSawIsMarked) {
     const Ldi ldi = make_ldi(windows_of_size(64, 16), rgba_channels(), [](int x, int) {
         return x < 32 ? std::vector<Sample>{{depth_of(lens, -4), {0.1f, 0.2f, 0.3f, 1}}}
@@ -149,7 +149,7 @@ TEST(LensGatherThroughAPoint, WhatNoViewSawIsMarked) {
     for (const int x : {36, 50}) EXPECT_EQ(colour(behind, x), far) << x;
 }
 
-// Tiles are told of from the place outwards, each once, and as the picture then has them.
+// Tiles are reported from the given position outwards, each once, and with their final values.
 TEST(LensGather, IsWatchedFromAPlaceOutwards) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Ldi ldi = make_ldi(windows_of_size(300, 140), grey, [](int x, int y) {
@@ -192,7 +192,7 @@ TEST(LensGather, ConstantStaysConstantAndOpaque) {
 }
 
 TEST(LensGather, LikeStacksGiveTheirComposite) {
-    // The same samples everywhere: however they slide over each other, they show the same.
+    // The same samples in every pixel: however they are displaced, they show the same.
     const std::vector<Sample> stack{{depth_of(lens, -6), {0.1f, 0.3f}},
                                     {depth_of(lens, -5.4), {0.05f, 0.2f}},
                                     {depth_of(lens, -0.3), {0.4f, 0.5f}},
@@ -224,13 +224,13 @@ std::vector<Sample> random_stack(int x, int y, double z, float offset) {
 TEST(LensGather, WithoutBlurIsTheFlattenedPicture) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"id", PixelType::uint32});
-    // Hardly a lens: whatever the samples, and wherever in their pixels, nothing moves.
+    // An almost closed lens: whatever the samples and their offsets, nothing moves.
     const Ldi apart = make_ldi(windows_of_size(90, 40), channels,
                                [](int x, int y) { return random_stack(x, y, 1 + x, 1); });
     EXPECT_LT(
         largest_difference(gather(apart, {.radius = 1e-9, .focal_px = 640, .focus = 5}), flatten(apart)),
         1e-5);
-    // A real lens, all in focus: what shines through to infinity has no light that could be blurred.
+    // A real lens with everything in focus: light that passes to infinity cannot be blurred.
     const Ldi in_focus =
         make_ldi(windows_of_size(90, 40), channels, [](int x, int y) { return random_stack(x, y, 5, 0); });
     const Image image = gather(in_focus, lens), flat = flatten(in_focus);
@@ -240,7 +240,7 @@ TEST(LensGather, WithoutBlurIsTheFlattenedPicture) {
 }
 
 TEST(LensGather, GoesOverIntoTheFlattenedPictureAsBlurGoesTo0) {
-    // Partial samples on the pixels' centres, as others' deep files have them.
+    // Partial samples at pixel centres, as in other renderers' deep files.
     const auto layers = [](double c) {
         return make_ldi(windows_of_size(70, 40), grey_alpha, [c](int x, int y) {
             std::vector<Sample> samples;
@@ -279,7 +279,7 @@ double share_before(double e, double r) {
     return 1 - (std::acos(t) - t * std::sqrt(1 - t * t)) / std::numbers::pi;
 }
 
-// The same of the disc averaged over a pixel.
+// The same for the disc averaged over a pixel.
 double share_in_pixel(double e, double r) {
     double sum = 0;
     for (int i = 0; i < 100; ++i) sum += share_before(e + (i + 0.5) / 100 - 0.5, r) / 100;
@@ -290,7 +290,7 @@ TEST(LensGather, BlursCoverageAtAnEdgeBeforeNothing) {
     for (const double c : {-6.0, -2.5}) {
         const Image image = gather(half_plane(far_focus, c, 0, 0), far_focus, 1024);
         for (int x = 16; x < 48; ++x) {
-            // The nothing beside what covers a pixel goes on behind it.
+            // The nothing beside the half plane continues behind it.
             const double share = share_in_pixel(32 - (x + 0.5), std::abs(c));
             ASSERT_NEAR(image.at(1, x, 20), share, 0.01) << x;
             ASSERT_NEAR(image.at(0, x, 20), 0.8 * share, 0.01) << x;
@@ -313,7 +313,7 @@ TEST(LensGather, ASharpEdgeStaysSharpBeforeWhatIsBlurred) {
 }
 
 TEST(LensGather, UnknownIsLeftOut) {
-    // Behind the sharp strip nothing is known: what shows beside it is as if it went on there.
+    // Nothing is known behind the sharp strip: its neighbours are filled in there.
     const Ldi ldi = make_ldi(windows_of_size(64, 40), grey_alpha, [](int x, int) {
         return std::vector<Sample>{x >= 24 && x < 40 ? Sample{5, {0.8f, 1}}
                                                      : Sample{depth_of(lens, 6), {0.1f, 1}}};
@@ -392,13 +392,13 @@ TEST(LensGather, DoesNotDependOnWhereTheWindowLies) {
 }
 
 TEST(LensGather, GivesAPartAsItGivesTheWhole) {
-    // Where no pixel lets light through, a window only says what is written.
+    // If no pixel lets light through, a window only selects what is written.
     const Ldi ldi = make_ldi(windows_of_size(150, 90), grey, [](int x, int y) {
         const double c = -5 + 10 * random_unit(x / 5, y / 5, 1);
         return std::vector<Sample>{{depth_of(lens, c), {float(texture(x, y))}}};
     });
     Progress silent;
-    const Imath::Box2i part({64, 0}, {140, 63}); // on the corner of a tile: the same lens points see it
+    const Imath::Box2i part({64, 0}, {140, 63}); // at the corner of a tile: the same lens points see it
     EXPECT_EQ(lens_gather(ldi, lens, part, {}, silent).values, crop(gather(ldi, lens), part).values);
 }
 
@@ -413,7 +413,7 @@ TEST(LensGather, IsTheSameWithAnyNumberOfThreads) {
     EXPECT_EQ(one, with(3));
 }
 
-// Left and right, up and down are alike, but for the lens points.
+// Symmetric left to right and top to bottom, except for the lens points.
 TEST(LensGather, TurnedLayersGiveTheTurnedPicture) {
     const ThinLens &by = lens;
     const auto layers = [&](bool turned) {
@@ -443,7 +443,7 @@ TEST(LensGather, OneSampleFarOutOfFocusHarmsNothing) {
             return samples;
         });
     };
-    // Other lens points, perhaps; the same picture.
+    // Possibly other lens points, but the same picture.
     EXPECT_LT(rms_difference(gather(layers(true), lens), gather(layers(false), lens)), 0.03);
 }
 
@@ -475,7 +475,7 @@ TEST(LensGather, TakesDepthsUpToInfinity) {
     }
 }
 
-// By the CoC in pixels of the picture: 7 sub-pixels are 3.5 pixels of two.
+// Chosen by the CoC in pixels of the picture: 7 sub-pixels are 3.5 pixels of two.
 TEST(LensGather, SubpixelsTakeThreeQuartersOfAPixelsPoints) {
     const Ldi ldi = make_ldi(windows_of_size(64, 64), grey_alpha, [](int, int) {
         return std::vector<Sample>{{depth_of(lens, 7), {0.7f, 1}}};
@@ -495,9 +495,10 @@ TEST(LensGather, SubpixelsTakeThreeQuartersOfAPixelsPoints) {
     EXPECT_EQ(points(Quality::final, 2, 40), 40);
 }
 
-// The variance of a spread sample: a disc's c^2 / 4, and 1/12 each of the sample's square and of the places in a pixel that lens
-// points look from; of sub-pixels, those are half as wide. Pixels add up to it over samples all over a pixel. Of data, as light near
-// the focus is sharpened. Half the width is .06 less; that places and lens points are not quite independent is .01.
+// The variance of a spread sample: c^2 / 4 for the disc, and 1/12 each for the sample's square and for the positions in
+// a pixel from which lens points look; for sub-pixels, these positions span half the width. Sums of pixels reach it for
+// samples anywhere in a pixel. Uses data channels, because light near the focus is sharpened. Half the width reduces it
+// by .06; .01 is for positions and lens points not being quite independent.
 TEST(LensGather, SubpixelsLookFromNearTheirMiddle) {
     std::vector<Channel> channels{{"N.X"}, {"A"}};
     find_kinds(channels);

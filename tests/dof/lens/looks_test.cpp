@@ -49,8 +49,8 @@ std::vector<LensLooks> all_looks() {
 }
 
 TEST(LensLooks, ConstantStaysConstantAndOpaque) {
-    // Planes of one colour: behind focus, in front, and strips of one before the other, half of them half covered. What
-    // differs in coverage is so far out of focus that nothing is sharpened.
+    // Planes of one colour: behind focus, in front, and strips before another plane, half of them half covered. Samples
+    // of partial coverage are so far out of focus that nothing is sharpened.
     const std::array<float, 4> colour{0.4f, 0.7f, 0.2f, 1};
     const auto strips = [&](int x, int y) {
         std::vector<Sample> samples{{depth_of(lens, 6), {0.4f, 0.7f, 0.2f, 1}}};
@@ -97,8 +97,8 @@ struct BentFocus {
     LensLooks looks() const { return {.field_curvature = curvature, .tilt = {tan_x, tan_y}}; }
 };
 
-// A surface that lies where the lens is focused is sharp everywhere. With a tilt alone it is a plane in space, z + x tan X +
-// y tan Y = d. Pixels are square, and twice as wide as high; the data window is a part of the display window.
+// A surface at the focus of the bent lens is sharp everywhere. With only a tilt it is a plane in space, z + x tan X + y
+// tan Y = d. Pixels are square, and twice as wide as high; the data window is a part of the display window.
 TEST(LensLooks, FocusOnTheSurfaceThatTheirAnglesSay) {
     for (const float aspect : {1.0f, 2.0f})
         for (const BentFocus &bent : {BentFocus{0.4, 0, 0}, BentFocus{0, 2, -1}, BentFocus{0, 0, 6}}) {
@@ -118,7 +118,7 @@ TEST(LensLooks, FocusOnTheSurfaceThatTheirAnglesSay) {
         }
 }
 
-// A lamp of CoC 7 has the disc that the bent plane of focus gives it at its place: c = R F (1/d' - 1/z), R F / d = 7.68.
+// A lamp of CoC 7 has the disc given by the bent plane of focus at its position: c = R F (1/d' - 1/z), R F / d = 7.68.
 TEST(LensLooks, SpreadALampByTheFocusAtItsPlace) {
     const double half_diagonal = std::hypot(64, 32), rf_by_d = 0.06 * 640 / 5;
     for (const BentFocus &bent : {BentFocus{0, 3, 0}, BentFocus{0, 0, 6}, BentFocus{0.5, 0, 0}})
@@ -139,8 +139,9 @@ TEST(LensLooks, SpreadALampByTheFocusAtItsPlace) {
         }
 }
 
-// At a place q half diagonals from the axis a lamp becomes an ellipse: R F / d A |q|^2 pixels longer along the line to the axis
-// than the disc, and as much shorter across it. The mean square of an ellipse along its axes is a quarter of theirs.
+// At a position q half diagonals from the axis a lamp becomes an ellipse: R F / d A |q|^2 pixels longer than the disc
+// along the line to the axis, and shorter by as much across it. The mean square of an ellipse along its axes is a
+// quarter of theirs.
 TEST(LensLooks, SkewALampAlongTheLineToTheAxis) {
     const double half_diagonal = std::hypot(64, 32), rf_by_d = 0.06 * 640 / 5;
     for (const double coc : {7.0, -7.0, 2.5})
@@ -171,9 +172,9 @@ TEST(LensLooks, SkewALampAlongTheLineToTheAxis) {
         }
 }
 
-// Right of the axis, in the middle of a quarter of a tile, the sagittal focus shows what changes from row to row, and the
-// tangential one what changes from column to column. Two pixels from there the CoC is 0.3 pixels, by which an edge of 0.9 loses
-// less than 0.1.
+// To the right of the axis, in the middle of a quarter of a tile, the sagittal focus resolves changes from row to row,
+// and the tangential focus those from column to column. Two pixels away the CoC is 0.3 pixels, which reduces an edge of
+// 0.9 by less than 0.1.
 TEST(LensLooks, FocusLinesAlongAndAcross) {
     const double s = 0.06 * 640 / 5 * 48 * 48 / (80 * 80); // half a diagonal is 80 pixels
     for (const bool rows : {true, false})
@@ -209,7 +210,7 @@ TEST(LensLooks, MagnifyAboutTheAxis) {
     }
     EXPECT_NEAR(x / sum, 40.5 + 1.2 * (80.5 - 40.5), 0.05);
     EXPECT_NEAR(y / sum, 34.5 + 1.2 * (50.5 - 34.5), 0.05);
-    EXPECT_NEAR(sum, 1000, 5); // the lamp's light stays, its disc is wider
+    EXPECT_NEAR(sum, 1000, 5); // the lamp's light is kept, its disc is wider
 }
 
 // One lamp in an empty picture of 64 x 64 pixels.
@@ -243,7 +244,7 @@ TEST(LensLooks, MirrorATriangleInFrontOfFocus) {
     for (int y = 1; y < 64; ++y)
         for (int x = 1; x < 64; ++x)
             ASSERT_NEAR(behind.at(0, x, y), in_front.at(0, 64 - x, 64 - y), 1e-3) << x << "," << y; // of 1000
-    EXPECT_GT(behind.at(0, 28, 30), 1.0f); // a side is on top behind focus, a corner in front
+    EXPECT_GT(behind.at(0, 28, 30), 1.0f); // a flat side is on top behind focus, a corner in front
     EXPECT_EQ(in_front.at(0, 28, 30), 0.0f);
 }
 
@@ -264,8 +265,8 @@ double common_area(double r, double d) {
     return std::acos(x) + r * r * std::acos((d - x) / r) - d * y;
 }
 
-// The light of a lamp `away` half diagonals from the axis whose CoC is `coc` half diagonals, for a cat-eye of 1: what each
-// pixel sees counts by what is left of the lens there.
+// The light of a lamp `away` half diagonals from the axis with a CoC of `coc` half diagonals, for a cat-eye of 1: each
+// pixel's light is weighted by the part of the lens that remains there.
 double light_past_cat_eye(double away, double coc) {
     constexpr int n = 400;
     double light = 0;
@@ -279,7 +280,7 @@ double light_past_cat_eye(double away, double coc) {
     return light;
 }
 
-// At the corner the second circle is displaced by the amount; on the axis the disc is whole.
+// At the corner the second circle is displaced by the cat-eye's amount; on the axis the disc is whole.
 TEST(LensLooks, CutCatEyes) {
     const Windows windows = windows_of_size(160, 120); // half a diagonal is 100 pixels
     const auto lit = [&](const Imath::V2i &pixel, const LensLooks &looks, double &sum) {
