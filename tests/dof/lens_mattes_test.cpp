@@ -24,7 +24,7 @@ Image gather(const Ldi &ldi, const GatherMethod &method = gather_methods().front
                          silent);
 }
 
-// The share of a disc of this radius, and of the pixel, on the left of an edge `to_edge` pixels to the right.
+// The share of a disc of this radius, averaged over the pixel, on the left of an edge `to_edge` pixels to the right.
 double share_of_disc(double radius, double to_edge) {
     constexpr int steps = 64; // over the pixel
     double sum = 0;
@@ -57,7 +57,7 @@ TEST(LensMattes, AMatteThroughTheLensIsTheDiscOfIt) {
     }
 }
 
-// Each pair covers what it did, over nothing as over something else; and the larger comes first.
+// Each pair keeps its coverage over nothing and over other objects, and the larger comes first.
 TEST(LensMattes, TheSumOverIdsIsAlphaAndRanksDescend) {
     Ldi ldi = make_ldi(windows_of_size(48, 40), channels_with_matte(3), [](int x, int y) {
         std::vector<Sample> samples;
@@ -86,7 +86,7 @@ TEST(LensMattes, TheSumOverIdsIsAlphaAndRanksDescend) {
         const double alpha = double(picture.plane(3)[i]);
         EXPECT_LE(sum, alpha + 1e-4);
         if (last > 0)
-            ++full; // a seventh may not have had a rank
+            ++full; // a seventh may have had no rank
         else
             EXPECT_NEAR(sum, alpha, 1e-4);
     }
@@ -102,7 +102,7 @@ TEST(LensMattes, TheLightIsTheSameWithThem) {
     for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(std::ranges::equal(with.plane(k), without.plane(k)));
 }
 
-// 17 objects in five views: 17 in the LDI, clustered, and in the picture, bit for bit.
+// 17 objects in five views give 17 in the LDI, in the clustered LDI and in the picture, bit for bit.
 View view_of_17(const Imath::V2d &position) {
     View view;
     view.image = Image(windows_of_size(68, 24), channels_with_matte());
@@ -129,7 +129,7 @@ TEST(LensMattes, SeventeenIdsStaySeventeen) {
     for (std::uint32_t id = 0; id < 17; ++id) expected.insert(std::bit_cast<std::uint32_t>(hashed(id)));
     for (View &view : views) {
         const auto before = view.image.values;
-        EXPECT_FALSE(sanitize(view).any()); // hashes above 1e34 are no errors
+        EXPECT_FALSE(sanitize(view).any()); // hashes above 1e34 are valid
         EXPECT_TRUE(std::ranges::equal(before, view.image.values, {}, std::bit_cast<std::uint32_t, float>,
                                        std::bit_cast<std::uint32_t, float>));
         EXPECT_EQ(ids_in(view.image), expected);
@@ -144,7 +144,7 @@ TEST(LensMattes, SeventeenIdsStaySeventeen) {
     EXPECT_EQ(ids_in(gather(clustered)), expected);
 }
 
-// Samples that become one have the pairs of all, by what each shows.
+// A merged sample has the pairs of all its samples, weighted by their visible shares.
 TEST(LensMattes, MergedSamplesUniteTheirPairs) {
     const Ldi ldi = make_ldi(windows_of_size(1, 1), channels_with_matte(), [](int, int) {
         return std::vector<Sample>{{4, {0, 0, 0, 0.5f, hashed(1), 0.5f, 0, 0}},
@@ -162,7 +162,7 @@ TEST(LensMattes, MergedSamplesUniteTheirPairs) {
     EXPECT_EQ(merged.values[4][0], hashed(1)); // the first rank
 }
 
-// Normals are a weighted mean: a bright one is no lamp, and what is near focus is not sharpened.
+// Normals are a weighted mean: a bright one is not a lamp, and nothing near focus is sharpened.
 TEST(LensMattes, DataIsAMean) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"P.X", PixelType::float32});
@@ -180,7 +180,7 @@ TEST(LensMattes, DataIsAMean) {
         if (c < 1)
             for (auto *values : {&as_data.values, &as_light.values})
                 for (std::size_t i = 0; i < 1600; ++i)
-                    (*values)[0][i] = float(i % 8 == 0); // detail to be sharpened
+                    (*values)[0][i] = float(i % 8 == 0); // detail that sharpening would change
         const Image data = gather(as_data), light = gather(as_light);
         EXPECT_TRUE(std::ranges::equal(data.plane(0), light.plane(0))) << c;
         EXPECT_FALSE(std::ranges::equal(data.plane(4), light.plane(4))) << c;

@@ -113,7 +113,7 @@ TEST(MergeLayers, CryptomattesAndPerChannelAlphaAreLeftAlone) {
     EXPECT_EQ(merge_layers(matte, 1, 0.25).samples(), 2u);
 }
 
-// A picture of an LDI through a lens of R F 20, its layers merged by the tolerance.
+// A picture of an LDI through a lens of R F 20, with layers merged by the tolerance.
 Image through_a_lens(const Ldi &ldi, double tolerance) {
     const ThinLens lens{.radius = 0.02, .focal_px = 1000, .focus = 5};
     const Imath::Box2i &all = ldi.windows.data;
@@ -171,7 +171,7 @@ TEST(MergeLayers, SamplesThatAreReducedFirstMakeTheSamePicture) {
     }
 }
 
-// The bound of lab/results/techniques.md, and what decides whether layers are merged at all.
+// The bound of lab/results/techniques.md, which decides whether layers are merged at all.
 TEST(MergeLayers, DenseScenesLookTheSame) {
     for (const DeepScene &scene : deep_scenes()) {
         const Ldi ldi = tidy(scene.make(64, 48));
@@ -184,14 +184,14 @@ TEST(MergeLayers, DenseScenesLookTheSame) {
             return gather_picture(ldi, lens, all, all, options, silent);
         };
         const Image whole = picture(0), merged = picture(layer_tolerance_px);
-        // Their layers lie farther apart than the tolerance: nothing may change at all.
+        // Their layers are farther apart than the tolerance, so nothing may change.
         if (scene.name == std::string("hair") || scene.name == std::string("apart")) {
             EXPECT_EQ(merged.values, whole.values) << scene.name;
             continue;
         }
         const double decibels = image_error(merged, whole)[0].psnr_tonemapped;
         EXPECT_GT(decibels, 45) << scene.name;
-        EXPECT_TRUE(std::isfinite(decibels)) << scene.name; // else nothing was merged
+        EXPECT_TRUE(std::isfinite(decibels)) << scene.name; // otherwise nothing was merged
     }
 }
 

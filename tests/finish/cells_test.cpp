@@ -1,4 +1,4 @@
-// Cells of pixels: means over them, and what lies between them.
+// Cells of pixels: means over them, and interpolation between them.
 #include "finish/cells.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Values means(const Cells &cells, const Of &of) {
     return plane;
 }
 
-// Sides that runs and cells do not divide.
+// Sides that are not multiples of runs and cells.
 TEST(Cells, AreTheMeansOfTheirPixels) {
     for (const Grid &grid : {Grid(131, 21), Grid(64, 8), Grid(1, 9), Grid(9, 1)})
         for (const int side : {1, 2, 4, 8}) {

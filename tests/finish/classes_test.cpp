@@ -31,7 +31,7 @@ TEST(Classes, ValuesBeyondCountAsTheEnds) {
     EXPECT_EQ(classes.place_of(7), 4);
 }
 
-// A hundredth of the pixels has all the weight, and so half of the classes.
+// A hundredth of the pixels has all the weight, and gets half of the classes.
 TEST(Classes, PixelsAndWeightsCountHalf) {
     Classes classes(4, 0, 1);
     for (int i = 0; i < 9900; ++i) classes.add(0.4f * float(i) / 9900, 0);

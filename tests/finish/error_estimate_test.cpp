@@ -1,4 +1,4 @@
-// The estimated error beside the true one, where the truth is known.
+// The estimated error compared with the true one, where the truth is known.
 #include "finish/error_estimate.h"
 #include "finish/synthetic.h"
 
@@ -28,7 +28,7 @@ TEST(ErrorEstimate, LiesNearTheTrueError) {
         }
 }
 
-// A difference in the estimate's map is where the picture is wrong.
+// The estimate's map is large where the picture is wrong.
 TEST(ErrorEstimate, TheMapShowsWhere) {
     Colours wrong = truth;
     for (int y = 30; y < 60; ++y)
@@ -53,10 +53,10 @@ TEST(ErrorEstimate, WhatIsTooSmallToTellIsNotTold) {
 
 TEST(ErrorEstimate, SaysHowManyRaysAGoalTakes) {
     const std::array<double, 2> samples{32, 32};
-    const ErrorEstimate error{{}, 1e-4, 1e-6, 2e-4}; // half the error by twice the rays
+    const ErrorEstimate error{{}, 1e-4, 1e-6, 2e-4}; // twice the rays halve the error
     EXPECT_EQ(times_the_rays(error, samples, 39).value(), 1);
     EXPECT_NEAR(times_the_rays(error, samples, 43.01).value(), 2, 0.01);
-    const ErrorEstimate slow{{}, 1e-4, 1e-6, 1e-4}; // it did not fall
+    const ErrorEstimate slow{{}, 1e-4, 1e-6, 1e-4}; // it did not fall with more rays
     EXPECT_GT(times_the_rays(slow, samples, 43.01).value(), 10);
 }
 

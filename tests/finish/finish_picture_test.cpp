@@ -1,4 +1,4 @@
-// Whole pictures: layers, alpha, what is kept as gathered, windows that differ, values that are not finite.
+// Whole pictures: layers, alpha, parts kept as gathered, different windows, non-finite values.
 #include "base/error.h"
 #include "finish/finish_picture.h"
 #include "finish/synthetic.h"
@@ -67,7 +67,7 @@ TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     }
 }
 
-// Renders whose data windows differ: where one says nothing, the picture stays as gathered.
+// Renders with different data windows: where one has no data, the picture stays as gathered.
 TEST(FinishPicture, WhereARenderSaysNothingItStaysAsGathered) {
     Render first = render(1), second = render(2);
     first.image = crop(first.image, {{0, 0}, {39, 47}});
@@ -106,7 +106,7 @@ TEST(FinishPicture, LayersAreFinishedAndDataAndIdsStay) {
     const auto rays = [&](std::uint32_t seed) {
         Render r{"rays.exr", picture_of(rays_of(truth, 256, seed), channels), 256};
         std::ranges::fill(r.image.plane(3), 1.0f);
-        for (std::size_t i = 0; i < grid.size(); ++i) // channels in another order than the gathered ones
+        for (std::size_t i = 0; i < grid.size(); ++i) // channels in another order than when gathered
             for (std::size_t c = 4; c < 7; ++c)
                 r.image.plane(c)[i] = rays_of({{truth[c - 4][i]}}, 256, seed + std::uint32_t(i))[0][0];
         return r;
@@ -134,7 +134,7 @@ TEST(FinishPicture, WithoutColoursInCommonIsAnError) {
     EXPECT_THROW(finished(picture_of(truth), {grey, grey}), Error);
 }
 
-// An element on nothing: its colours and its coverage are both 0 outside.
+// An element over nothing: its colours and its coverage are both 0 outside.
 TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
     Image gathered = picture_of(truth);
     std::vector<Render> renders{render(1), render(2)};

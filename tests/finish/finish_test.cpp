@@ -1,4 +1,4 @@
-// The limits of finish_layer(): a gathered picture that is right, one of another scene, and rays without end.
+// The limits of finish_layer(): a correct gathered picture, one of another scene, and infinitely many rays.
 #include "finish/synthetic.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Finish, ManyRaysDecide) {
               decibels_of(mean_of(layer.rays, layer.samples), truth) - 0.05);
 }
 
-// The brighter a pixel the rarer the ray: one that only a render met must not stay.
+// The brighter a pixel, the rarer its ray: a pixel that is bright in only one render must not stay.
 TEST(Finish, AFireflyOfOneRenderIsNotBelieved) {
     LayerToFinish layer = layer_of(grid, truth, truth, {16, 16});
     for (Values &channel : layer.rays[0]) channel[grid.index(100, 70)] = 500;

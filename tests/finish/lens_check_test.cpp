@@ -1,4 +1,4 @@
-// Mistakes between a gathered picture and rays: named where they are, and nowhere else.
+// Mistakes between a gathered picture and rays are named if they exist, and only then.
 #include "finish/lens_check.h"
 #include "finish/synthetic.h"
 
@@ -16,7 +16,7 @@ Colours times(Colours colours, float factor) {
     return colours;
 }
 
-// Moved by half a pixel to the right, or down.
+// The picture moved by half a pixel to the right, or down.
 Colours moved(const Colours &colours, int dx, int dy) {
     Colours result = colours;
     for (std::size_t c = 0; c < 3; ++c)
@@ -59,7 +59,7 @@ TEST(LensCheck, HalfAPixelIsNamed) {
     EXPECT_NE(below.warnings()[0].find("bottom"), std::string::npos);
 }
 
-// A lamp beyond the frame, whose light the gathered picture lacks, is no other exposure.
+// A lamp beyond the frame, whose light the gathered picture lacks, is not a different exposure.
 TEST(LensCheck, LightThatTheGatheredPictureLacksIsNoExposure) {
     Colours bright = truth;
     for (std::size_t i = 0; i < grid.size(); ++i)

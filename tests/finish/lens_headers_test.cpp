@@ -1,4 +1,5 @@
-// Another lens in the headers of two pictures: named with both values, and nothing said of what is the same or unknown.
+// Different lenses in the headers of two pictures: each difference is named with both values; equal and unknown values
+// are not mentioned.
 #include "finish/lens_headers.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(LensHeaders, EachMistakeIsNamed) {
     EXPECT_EQ(lens_differences(camera(), squeezed), Texts{"a squeeze of 2, not 1"});
 }
 
-// A hexagon that is turned by a side is the same.
+// A hexagon turned by one side is the same.
 TEST(LensHeaders, ARotationIsNamedWhereItShows) {
     Camera hexagon = camera(), turned = camera();
     hexagon.looks.blades = turned.looks.blades = 6;

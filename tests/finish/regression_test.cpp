@@ -28,7 +28,7 @@ TEST_F(RegressionTest, WeightsAreThoseOfTheToneCurve) {
     EXPECT_FLOAT_EQ(found[2], 1);
 }
 
-// As dark or bright as it may be, a straight line is found exactly.
+// A straight line is found exactly at any brightness.
 TEST_F(RegressionTest, AStraightLineOfTheGuideIsFound) {
     for (const FinishTuning::Window window : {FinishTuning::Window{1, 1}, {2, 4}, {4, 2}}) {
         const Values rays = with(guide[0], 0.25f, 0.8f),
@@ -38,7 +38,8 @@ TEST_F(RegressionTest, AStraightLineOfTheGuideIsFound) {
     }
 }
 
-// Half of the picture follows the guide, half does not: each its own way where the guide varies more than the prior.
+// Half of the picture follows the guide, half does not: each half gets its own slope where the guide varies more than
+// the prior.
 TEST_F(RegressionTest, SlopesAreLocal) {
     Values stripes(grid.size());
     for (std::size_t i = 0; i < stripes.size(); ++i) stripes[i] = i % 2 == 0 ? 1.0f : -0.9f;

@@ -1,4 +1,4 @@
-// Means over similar pixels: what stays as it is, and that edges of the guide are kept.
+// Means over similar pixels: some pictures stay as they are, and edges of the guide are kept.
 #include "finish/similar_pixels.h"
 #include "finish/synthetic.h"
 
@@ -7,7 +7,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(45, 37); // bands of 16 rows do not divide it
+const Grid grid(45, 37); // not a multiple of the bands of 16 rows
 
 TEST(SimilarPixels, AConstantStaysConstant) {
     const Colours guide = synthetic_truth(grid), constant(3, Values(grid.size(), 0.6f));
@@ -31,7 +31,7 @@ TEST(SimilarPixels, AreLinearInTheRays) {
         }
 }
 
-// Black meets white along a diagonal: noise is averaged away, and nothing crosses the edge.
+// Black meets white along a diagonal: noise is averaged, and nothing crosses the edge.
 TEST(SimilarPixels, KeepEdgesOfTheGuide) {
     Colours guide(1, Values(grid.size()));
     for (std::size_t i = 0; i < grid.size(); ++i)
@@ -43,7 +43,7 @@ TEST(SimilarPixels, KeepEdgesOfTheGuide) {
         before += std::pow(double(rays[0][i] - guide[0][i]), 2);
         after += std::pow(double(found[i] - guide[0][i]), 2);
     }
-    EXPECT_LT(after, before / 10); // half of 9 x 9 pixels, but at edges and corners
+    EXPECT_LT(after, before / 10); // half of 9 x 9 pixels, fewer at edges and corners
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// How far candidates are believed: one that is right, one that is noise, and what must not depend on threads.
+// The trust in candidates: a correct one, a noisy one, and independence of the number of threads.
 #include "finish/synthetic.h"
 #include "finish/trust.h"
 
@@ -42,7 +42,7 @@ TEST(Trust, NoiseIsNotTaken) {
     EXPECT_GT(decibels_of(result.pictures[2], truth), 55);
 }
 
-// What the candidate has of the render that makes it must not be confirmed by that render.
+// A render must not confirm the part of a candidate that was made from it.
 TEST(Trust, RaysDoNotConfirmThemselves) {
     const Colours truth = synthetic_truth(grid);
     const LayerToFinish layer = layer_of(grid, truth, truth, {4, 4});
@@ -61,7 +61,7 @@ TEST(Trust, ThreadsDoNotMatter) {
     for (const std::size_t threads : {2u, 7u}) EXPECT_EQ(with(threads), one) << threads;
 }
 
-// The lamp of radiance 30 that the gathered picture spreads too far comes back, and what is dark stays.
+// A lamp of radiance 30 that the gathered picture spreads too far is restored, and dark areas stay.
 TEST(Trust, LightIsKept) {
     const Colours truth = synthetic_truth(grid);
     const LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 2), {256, 256});

@@ -1,4 +1,4 @@
-// Means over windows, against means that are taken pixel by pixel.
+// Means over windows, compared with means computed pixel by pixel.
 #include "finish/colours.h"
 #include "finish/window_means.h"
 
@@ -38,7 +38,7 @@ void expect_near(const Values &found, const Values &expected, float bound) {
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], expected[i], bound) << i;
 }
 
-// Sides that lanes of 16 do not divide, and a radius that is larger than the picture.
+// Sides that are not multiples of 16 lanes, and a radius larger than the picture.
 TEST(WindowMeans, AreTheMeansOverTheSquareWithinThePicture) {
     for (const Grid &grid : {Grid(37, 21), Grid(1, 40), Grid(40, 1), Grid(1, 1)})
         for (const int radius : {0, 1, 3, 10, 64}) {

@@ -1,4 +1,4 @@
-// The kernel of the lens gather against the CPU's.
+// The kernel of the lens gather compared with the CPU.
 #include "deep/tidy.h"
 #include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
@@ -32,7 +32,7 @@ Image gather(const Ldi &ldi, const LensGatherOptions &options, const ThinLens &b
 
 class LensDeviceTest : public GpuTest {
 protected:
-    // Both pictures; all tiles are the device's.
+    // Compares both pictures; the device must have computed all tiles.
     void expect_same(const Ldi &ldi, LensGatherOptions options, double tolerance = 1e-6,
                      const ThinLens &by = lens) {
         const Image expected = gather(ldi, options, by);
@@ -48,7 +48,7 @@ protected:
         device->take_report();
     }
 
-    // Also of what the device leaves behind.
+    // The validation layer also reports objects that the device leaves behind.
     void TearDown() override {
         device.reset();
         GpuTest::TearDown();
@@ -65,7 +65,7 @@ TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
     expect_same(surfaces(150, 90, false, 2), {.lens_samples = 8});
 }
 
-// Far out of focus on both sides of it, but for a corner.
+// Far out of focus on both sides of it, except for a corner.
 TEST_F(LensDeviceTest, CellsAreTheCpus) {
     const ThinLens wide{.radius = 0.6, .focal_px = 640, .focus = 5};
     const Ldi ldi = make_ldi(windows_of_size(140, 70), rgba_channels(), [&](int x, int y) {
@@ -78,7 +78,7 @@ TEST_F(LensDeviceTest, CellsAreTheCpus) {
     expect_same(ldi, {.quality = Quality::draft}, 1e-6, wide);
 }
 
-// Discs less than half a pixel wide, and more than that high.
+// Discs less than half a pixel wide, but more than that high.
 TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
     ThinLens high = lens;
     high.pixel_aspect = 2;
@@ -143,7 +143,7 @@ TEST_F(LensDeviceTest, PixelsThatSeeThroughSomeLensPointsAreTheCpus) {
     expect_same(ldi, {.lens_samples = 8, .looks = looks});
 }
 
-// Half of the surfaces show what lies elsewhere.
+// Half of the surfaces show images at other depths.
 TEST_F(LensDeviceTest, MirrorsAndGlassAreTheCpus) {
     for (const bool opaque : {true, false}) {
         Ldi ldi = surfaces(90, 70, opaque, 11);
@@ -195,7 +195,7 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     EXPECT_GT(did.on_cpu.at("more samples than its buffers hold"), 0u);
 }
 
-// Depths are looked up by single precision; those of a holdout that shows the same are equal all the same.
+// Depths are looked up in single precision; equal depths of the holdout stay equal.
 TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
     const Ldi ldi = surfaces(90, 70, false, 12);
     Ldi volumes = surfaces(50, 70, false, 13);
@@ -210,7 +210,7 @@ TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
     }
 }
 
-// Passes have a few lens points each; tiles where one lens point takes too long are the CPU's.
+// A pass has a few lens points; the CPU computes tiles where one lens point takes too long.
 TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
     LensLooks looks;
     looks.aperture.spherical = 0.5;
@@ -232,9 +232,9 @@ TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
     EXPECT_EQ(did.on_cpu, (Tiles{{"more steps than the device takes", 1}}));
 }
 
-// What does not change stays on the device: of these frames the positions, depths, coverages and most colours.
+// Unchanged data stays on the device: the positions, depths, coverages and most colours of these frames.
 TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
-    // A third of it is nearly in focus, where each frame sharpens other colours.
+    // A third of it is nearly in focus, where each frame sharpens different colours.
     Ldi ldi = make_ldi(windows_of_size(150, 90), {{"Y"}, {"A"}}, [](int x, int y) {
         const auto y_of = [&](std::uint32_t stream) { return float(random_unit(x, y, stream)); };
         const Sample wall{x < 100 ? 9.0f : 5.0f, {y_of(1), 1}}, veil{3, {y_of(2) / 3, 0.4f}};
@@ -259,7 +259,7 @@ TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
     };
     for (const double focus : {5.0, 4.8, 4.6, 4.6}) frame(focus, ldi);
     for (std::vector<float> &values : ldi.values)
-        std::ranges::reverse(values); // another one of the same size
+        std::ranges::reverse(values); // another picture of the same size
     frame(4.6, ldi);
     frame(4.6, surfaces(90, 150, true, 16));
     EXPECT_LT(2 * uploaded[1], uploaded[0]);
@@ -268,7 +268,7 @@ TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
     EXPECT_GT(uploaded[4], uploaded[0] / 3);
 }
 
-// At each of its steps: memory, copies, the run.
+// Failures at each of its steps: memory, copies, the run.
 TEST_F(LensDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = surfaces(90, 70, false, 8);
     const Image expected = gather(ldi, {.lens_samples = 8});
@@ -288,7 +288,7 @@ TEST_F(LensDeviceTest, AFailureLosesNothing) {
         if (at == 0) return;
         EXPECT_GT(did.on_cpu.at("the device failed"), 0u);
         gather(ldi, {.lens_samples = 8, .device = device.get()});
-        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is not used any more
     };
     gathered(0, 0);
     const int all = steps;

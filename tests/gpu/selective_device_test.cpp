@@ -1,4 +1,4 @@
-// The kernel of the selective gather against the CPU's.
+// The kernel of the selective gather compared with the CPU.
 #include "dof/device/tile_device.h"
 #include "dof/selective/selective.h"
 #include "gpu/gather/gather_device.h"
@@ -29,7 +29,7 @@ double largest_of(const Image &image) {
 
 class SelectiveDeviceTest : public GpuTest {
 protected:
-    // Both pictures; all tiles are the device's.
+    // Compares both pictures; the device must have computed all tiles.
     void expect_same(const Ldi &ldi, const ThinLens &by = lens, int layers = 8) {
         const Image expected = gather(ldi, by, {.layers = layers});
         if (!device) device = open_gather_device(*info, watch());
@@ -38,13 +38,13 @@ protected:
         EXPECT_GT(did.on_device, 0u);
         EXPECT_EQ(did.on_cpu, Tiles());
         EXPECT_EQ(did.failure, "");
-        // Sums of 64 bits in the same order: rounding at most.
+        // Sums of 64 bits in the same order: only rounding.
         EXPECT_LE(largest_difference(image, expected), 1e-6 * largest_of(expected));
         EXPECT_EQ(gather(ldi, by, {layers, device.get()}).values, image.values);
         device->take_report();
     }
 
-    // Also of what the device leaves behind.
+    // The validation layer also reports objects that the device leaves behind.
     void TearDown() override {
         device.reset();
         GpuTest::TearDown();
@@ -84,7 +84,7 @@ TEST_F(SelectiveDeviceTest, DiscsOfAnySizeAreTheCpus) {
     }
 }
 
-// More channels than a group holds, and so many samples that a tile takes several passes.
+// More channels than a group holds, and enough samples that a tile takes several passes.
 TEST_F(SelectiveDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
     const Ldi ldi =
         make_ldi(windows_of_size(34, 12), {{"R"}, {"G"}, {"B"}, {"A"}, {"u"}, {"v"}}, [](int x, int y) {
@@ -136,7 +136,7 @@ TEST_F(SelectiveDeviceTest, WithoutNumbersOf64BitsAllIsTheCpus) {
     EXPECT_EQ(did.on_cpu, (Tiles{{"the device has no numbers of 64 bits", 2}}));
 }
 
-// At each of its steps: memory, copies, the program, its runs.
+// Failures at each of its steps: memory, copies, the program, its runs.
 TEST_F(SelectiveDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = random_surfaces(windows_of_size(50, 40), lens, false, 7);
     const Image expected = gather(ldi, lens, {});
@@ -156,7 +156,7 @@ TEST_F(SelectiveDeviceTest, AFailureLosesNothing) {
         if (at == 0) return;
         EXPECT_EQ(did.on_cpu.at("the device failed"), 4u);
         EXPECT_EQ(gather(ldi, lens, {.device = device.get()}).values, expected.values);
-        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is not used any more
     };
     gathered(0, 0);
     const int all = steps;

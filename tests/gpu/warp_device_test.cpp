@@ -1,4 +1,4 @@
-// The kernels of the warp against the CPU's.
+// The kernels of the warp compared with the CPU.
 #include "gpu/gpu_fixture.h"
 #include "gpu/warp/warp_device.h"
 #include "support/mattes.h"
@@ -27,7 +27,7 @@ protected:
         options.device = device.get();
         return warped(views, options);
     }
-    // The same bits; all rows are the device's.
+    // The same bits; the device must have computed all rows.
     void expect_same(const std::vector<View> &views, const WarpOptions &options) {
         const Ldi expected = warped(views, options);
         expect_same_bits(on_device(views, options), expected);
@@ -37,7 +37,7 @@ protected:
         EXPECT_EQ(did.failure, "");
     }
 
-    // Also of what the device leaves behind.
+    // The validation layer also reports objects that the device leaves behind.
     void TearDown() override {
         device.reset();
         GpuTest::TearDown();
@@ -46,7 +46,7 @@ protected:
     std::unique_ptr<WarpDevice> device;
 };
 
-// Where the views disagree, where they lie apart, and where pixels become two samples.
+// Pixels where the views disagree, where they are apart, and where pixels become two samples.
 TEST_F(WarpDeviceTest, RandomViewsAreTheCpus) {
     for (const int count : {1, 2, 5, 9}) {
         const std::vector<View> views = random_views(windows_of_size(70, 50), count);
@@ -66,13 +66,13 @@ TEST_F(WarpDeviceTest, PlanesAreTheCpus) {
             focused.focus = focus;
             expect_same(views, focused);
         }
-        focused.across = 4; // by it, blocks are looked at for images
+        focused.across = 4; // so that blocks are searched for images
         expect_same(views, focused);
         expect_same(views, keeping);
     }
 }
 
-// Cameras that stand in front of the centre view's or behind, zoom, and look past it.
+// Cameras in front of the centre view's or behind it, that zoom, or look past it.
 TEST_F(WarpDeviceTest, FramingsAreTheCpus) {
     const Windows windows = windows_of_size(64, 48);
     const Framing framings[] = {{0.02, 1.03, {0.013, -0.021}}, {-0.05, 0.9, {}}, {1.5, 1, {}}};
@@ -101,7 +101,7 @@ TEST_F(WarpDeviceTest, MissingViewsAreTheCpus) {
     expect_same(views, keeping);
 }
 
-// A device in software cannot sort them all.
+// A software device cannot sort them all.
 TEST_F(WarpDeviceTest, ManySamplesOfAPixelAreTheCpus) {
     const std::vector<View> views = random_views(windows_of_size(12, 10), 100);
     const Ldi expected = warped(views);
@@ -110,8 +110,8 @@ TEST_F(WarpDeviceTest, ManySamplesOfAPixelAreTheCpus) {
     EXPECT_EQ(did.on_cpu.contains("more samples in a pixel than it sorts"), info->kind == Kind::software);
 }
 
-// So near that 1 / z overflows what is precise, so far that it vanishes. Where a depth or 1 / z lies below the normal floats,
-// which devices may take for 0, the CPU does it all.
+// So near that 1 / z overflows its precise range, and so far that it vanishes. If a depth or 1 / z is denormal, which
+// devices may take for 0, the CPU does everything.
 TEST_F(WarpDeviceTest, ExtremeDepthsAreTheCpus) {
     std::vector<View> views = random_views(windows_of_size(50, 40), 4);
     const float depths[] = {1e-37f, 1e-9f, 0.5f, 3, 1e10f, 8e37f, inf};
@@ -127,7 +127,7 @@ TEST_F(WarpDeviceTest, ExtremeDepthsAreTheCpus) {
     }
 }
 
-// What is negative, and brighter than any light.
+// Negative colours, and colours brighter than any light.
 TEST_F(WarpDeviceTest, ExtremeColoursAreTheCpus) {
     std::vector<View> views = random_views(windows_of_size(50, 40), 4);
     const float colours[] = {0, -1, 1e-30f, 1, 65504, 3e38f};
@@ -150,7 +150,7 @@ TEST_F(WarpDeviceTest, CryptomattesAreTheCpus) {
     EXPECT_GT(device->take_report().on_cpu.at("Cryptomattes"), 0u);
 }
 
-// Ids are copied, also those whose bits are no float that a calculation would keep.
+// Ids are copied, even if calculations would not preserve their bits as floats.
 TEST_F(WarpDeviceTest, IdsAreTheCpus) {
     std::vector<View> views = random_views(windows_of_size(30, 20), 3);
     for (View &view : views) {
@@ -175,7 +175,7 @@ TEST_F(WarpDeviceTest, StripesMakeTheSameSamples) {
     EXPECT_EQ(did.on_cpu.at("more samples than its buffers hold"), std::size_t(expected.windows.height()));
 }
 
-// At each of its steps: memory, copies, runs.
+// Failures at each of its steps: memory, copies, runs.
 TEST_F(WarpDeviceTest, AFailureLosesNothing) {
     const std::vector<View> views = random_views(windows_of_size(70, 50), 3);
     const Ldi expected = warped(views);
@@ -194,7 +194,7 @@ TEST_F(WarpDeviceTest, AFailureLosesNothing) {
         if (at == 0) return;
         EXPECT_EQ(did.on_cpu.at("the device failed"), std::size_t(expected.windows.height()));
         on_device(views, averaging);
-        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is not used any more
     };
     warped_with(0, 0);
     const int all = steps;

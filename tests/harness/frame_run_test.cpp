@@ -62,7 +62,7 @@ TEST(FrameRun, WorksOnAFrameBesideTheOneBefore) {
     EXPECT_EQ(ended, (std::vector{0, 1}));
 }
 
-// Otherwise it begins when the one before has been worked on, and a third when the first has ended.
+// Otherwise it begins after the work of the frame before, and a third frame after the end of the first.
 TEST(FrameRun, BeginsNoFrameTooSoon) {
     for (const bool beside : {false, true}) {
         std::atomic<int> at_work = 0, alive = 0, most_at_work = 0, most_alive = 0;
@@ -87,7 +87,7 @@ TEST(FrameRun, BeginsNoFrameTooSoon) {
     }
 }
 
-// Three frames; the second ends with a code. Returns which were finished.
+// Three frames; the second ends with a code. Returns the finished frames.
 std::string finished(FrameRun &run, bool work_fails, int code, bool aside, bool beside) {
     std::string names;
     for (const char name : {'1', '2', '3'}) {
@@ -114,7 +114,7 @@ TEST(FrameRun, FinishesNothingAfterAFrameThatFailed) {
         EXPECT_TRUE(jobs.stopped());
         EXPECT_EQ(finished(writes, false, 1, aside, beside), "12");
         EXPECT_EQ(writes.worst(), 1);
-        EXPECT_EQ(finished(usage, false, 2, aside, beside), "12"); // wrong usage is that of all frames
+        EXPECT_EQ(finished(usage, false, 2, aside, beside), "12"); // a usage error concerns all frames
         EXPECT_EQ(usage.worst(), 2);
     }
 }
@@ -130,7 +130,7 @@ TEST(FrameRun, SkipsBadFrames) {
     }
 }
 
-// What the second says at work comes after all that the first says there, though it may have been done before.
+// Messages of the second frame's work come after all messages of the first, even if the work was done earlier.
 TEST(FrameRun, LetsFramesSpeakInTurn) {
     std::string said;
     FrameRun run(false);
@@ -164,7 +164,7 @@ TEST(FrameNeighbours, TakeWhatTheOneBeforeKeeps) {
     EXPECT_FALSE(unsaid.are_apart(1));
 }
 
-// Each takes 10 for each byte of its file.
+// Each frame takes 10 bytes of memory per byte of its file.
 TEST(TwoAtOnce, AsLongAsBothFit) {
     const auto fits = [](const std::vector<std::uint64_t> &bytes, std::uint64_t memory) {
         TwoAtOnce two(bytes, memory);
@@ -184,8 +184,9 @@ TEST(TwoAtOnce, AsLongAsBothFit) {
     const std::vector<bool> alone{false, false, false, false, false}, two{false, false, true, true, true};
     EXPECT_EQ(fits({5, 5, 5, 5, 5}, 100), two);
     EXPECT_EQ(fits({5, 5, 5, 5, 5}, 99), alone);
-    EXPECT_EQ(fits({0, 0, 0, 0, 0}, 20), two); // through pipes
-    // The second may be at work still when the third is asked for: the first is taken to have held all of it, 12 a byte.
+    EXPECT_EQ(fits({0, 0, 0, 0, 0}, 20), two); // sizes are unknown through pipes
+    // The second may still be running when the third is asked for, so the first is taken to have held everything: 12
+    // per byte.
     EXPECT_EQ(fits({5, 6, 7, 8, 9}, 155), alone);
     EXPECT_EQ(fits({5, 6, 7, 8, 9}, 156), (std::vector<bool>{false, false, true, false, false}));
     EXPECT_EQ(fits({1, 1, 1, 50, 50, 1, 1}, 100),

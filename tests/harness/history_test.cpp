@@ -72,7 +72,7 @@ TEST(History, GrowsByALine) {
 
 NamedFiles written(const std::string &file) { return {{{"-o", file}}, {}, {}}; }
 
-// An output that cannot be read is made again; what its header claims is not believed before it is checked.
+// An unreadable output is made again; claims in its header are checked before they are used.
 TEST(History, OfWhatCannotBeReadIsAnError) {
     const ScratchFolder scratch;
     const std::string file = scratch.file("out.exr");

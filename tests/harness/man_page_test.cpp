@@ -6,7 +6,7 @@
 namespace sparselens {
 namespace {
 
-// A small table with what is hard to print.
+// A small table with text that is hard to print.
 struct Table {
     CLI::App app{"Does it", "do-it"};
     std::string in, out, how;

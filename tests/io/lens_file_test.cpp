@@ -68,7 +68,7 @@ TEST_F(LensFiles, AreLinearInStopsBetweenFNumbers) {
     EXPECT_EQ(cat_eye(2), 1);
     EXPECT_NEAR(cat_eye(4), 0.5, 1e-12);
     EXPECT_EQ(cat_eye(INFINITY), 0);
-    // Between none and six blades there are no one or two: as at the smaller f-number.
+    // Between none and six blades there is no one or two: uses the number at the smaller f-number.
     EXPECT_EQ(read(R"({"blades": {"1": 0, "4": 6}})", 1.2).values.blades, 0);
 }
 
@@ -113,7 +113,7 @@ TEST_F(LensFiles, ThatAreNestedIn33LevelsAreRefused) {
     EXPECT_NE(error_of(nested(32)).find("deeper than 32 levels"), std::string::npos);
 }
 
-// Deeper than a stack would bear, in every way; and no message repeats what it refuses at length.
+// Nested too deeply for a stack, in every way; and no message repeats the refused text at length.
 TEST_F(LensFiles, ThatAreNestedDeeplyAreRefused) {
     const std::size_t levels = 200'000;
     const auto nested = [&](const std::string &open, const std::string &close) {
@@ -139,7 +139,7 @@ TEST_F(LensFiles, NameAPictureThatLiesBesideThem) {
     EXPECT_EQ(picture->rgb, std::vector<float>(18, 0.5f));
 }
 
-// What is made of a picture takes 100 bytes for each of its pixels: a large one is averaged.
+// A picture of an aperture takes 100 bytes of tables per pixel, so a large one is averaged.
 TEST_F(LensFiles, AverageALargePicture) {
     Image image(windows_of_size(5000, 3), {{"Y"}});
     std::ranges::fill(image.plane(0), 0.5f);
@@ -155,7 +155,7 @@ TEST_F(LensFiles, AverageALargePicture) {
             left += x < 833 ? 9 * double(picture->rgb[std::size_t(x) * 3 + k]) : 0;
         }
     EXPECT_NEAR(all, 3 * 3 * (2500 * 1.5 + 2500 * 0.5), 1e-2);
-    EXPECT_NEAR(left, 3 * 3 * 2500 * 1.5, 3 * 3 * 1.5 * 2); // to a square
+    EXPECT_NEAR(left, 3 * 3 * 2500 * 1.5, 3 * 3 * 1.5 * 2); // to within a square
 }
 
 TEST_F(LensFiles, AreBeatenByValues) {
@@ -169,7 +169,7 @@ TEST_F(LensFiles, AreBeatenByValues) {
     EXPECT_EQ(read_looks(given, {}).values.squeeze, 3);
     EXPECT_EQ(read_looks(given, {}).values.cat_eye, 1);
     EXPECT_TRUE(read_looks(given, {}).values.picture);
-    given.values.blades = 5; // in place of the picture
+    given.values.blades = 5; // instead of the picture
     EXPECT_FALSE(read_looks(given, {}).values.picture);
     put_contents(folder.file("blades.json"), R"({"blades": 6})");
     GivenLooks pictured;

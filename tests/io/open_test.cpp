@@ -28,7 +28,7 @@ protected:
     ScratchFolder folder;
     std::string path = folder.file("picture.exr");
 
-    // Depths and coverage of the pixels of a flat picture of one row.
+    // Writes the depths and coverages of a flat picture of one row.
     void write(const std::vector<float> &depths, const std::vector<float> &alphas,
                const Imath::V2f &screen_window_centre = {0, 0}) {
         Image image(windows_of_size(int(depths.size()), 1), {{"R"}, {"A"}, {"Z", PixelType::float32}});
@@ -59,7 +59,7 @@ TEST_F(Opened, SkyIsInfinitelyFar) {
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, inf, inf, inf}));
 }
 
-// As a renderer writes the edge of an element over nothing.
+// The edge of an element over nothing, as renderers write it.
 TEST_F(Opened, PartlyCoveredPixelsOfTheSkyTakeTheDepthBesideThem) {
     write({4, 1e10f, 1e10f, 5}, {1, 0.5f, 0, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{4, 4, inf, 5}));
@@ -112,8 +112,8 @@ TEST_F(Opened, NormalizedDepthNeedsBothPlanes) {
     normalized.near = 2;
     EXPECT_THROW(depths_of_ldi(normalized), UsageError);
     normalized.far = 2;
-    EXPECT_THROW(depths_of_ldi(normalized), UsageError); // the same
-    normalized.far = 1;                                  // white near: 0 at 2, which is the sky, and 1 at 1
+    EXPECT_THROW(depths_of_ldi(normalized), UsageError); // the same error
+    normalized.far = 1;                                  // white near: 0 is at 2, the sky; 1 is at 1
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{inf, 1.5f, 1}));
     EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{inf, 1.5f, 1}));
     normalized.far = 10;
@@ -125,7 +125,7 @@ TEST_F(Opened, NormalizedDepthNeedsBothPlanes) {
     EXPECT_FLOAT_EQ(depths_of_view(hyperbolic)[1], 1 / 0.3f); // the mean of 1 / 2 and 1 / 10
     normalized.far = double(inf);
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 4, inf}));
-    EXPECT_THROW(depths_of_view({.near = 1.0}), UsageError); // it would have no effect
+    EXPECT_THROW(depths_of_view({.near = 1.0}), UsageError); // it has no effect
 }
 
 TEST_F(Opened, PlanesOfNormalizedDepthComeFromTheHeader) {
@@ -137,7 +137,7 @@ TEST_F(Opened, PlanesOfNormalizedDepthComeFromTheHeader) {
     write_flat_exr(path, image, header);
     DepthOptions normalized{.meaning = DepthMeaning::normalized};
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{4, 6}));
-    normalized.far = 16; // the option comes first
+    normalized.far = 16; // options take precedence
     EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{4, 10}));
 }
 
@@ -163,7 +163,7 @@ TEST_F(Opened, DistanceFollowsAShiftedLens) {
         for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(depths[i], expected[i], 1e-6);
 }
 
-// What a rim view does not say of its frustum is as in the centre.
+// If a rim view does not state its frustum, the centre's is used.
 TEST_F(Opened, DistanceInASilentViewIsAsInTheCentre) {
     write({2, 2, 2}, {1, 1, 1});
     const DepthOptions distance{.meaning = DepthMeaning::distance};
@@ -201,7 +201,7 @@ TEST_F(Opened, DeepFilesComeTidyBackDepthsToo) {
     EXPECT_EQ(ldi.z_back, (std::vector<float>{2, 8}));
 }
 
-// A lens of radius 1 cm and F = 6 pixels, focused at 4 m.
+// A lens with a radius of 1 cm and F = 6 pixels, focused at 4 m.
 Imf::Header header_with_lens() {
     Camera camera;
     camera.focal_length_mm = 50;
@@ -264,9 +264,9 @@ TEST_F(Opened, RepairsAreCounted) {
 class OpenedByRows : public Opened {
 protected:
     Ldi ldi = random_ldi({.seed = 4, .width = 20, .height = 150, .opaque_share = 0.2, .depths = 64});
-    std::mutex reducing;        // of what follows: several threads reduce rows
-    int asked = 0;              // by what they are
-    std::map<int, int> heights; // of the rows that were reduced, by the first of them
+    std::mutex reducing;        // for the variables below: several threads reduce rows
+    int asked = 0;              // number of requests to reduce
+    std::map<int, int> heights; // first row -> number of reduced rows
 
     OpenedLdi open(const ReduceSamples &reduce) {
         write_ldi(path, ldi, {});

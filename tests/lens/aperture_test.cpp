@@ -27,7 +27,7 @@ TEST(Aperture, OfTheRoundLensHasTheSameLensPointsBitForBit) {
     }
 }
 
-// The cosine of half a side is how far the middle of a side is from the middle.
+// The middle of a side is at cos(half a side's angle) from the middle.
 TEST(Aperture, HasItsPointsWithinTheBladesEvenInArea) {
     for (const int blades : {3, 6, 9})
         for (const double rotation : {0.0, 25.0}) {
@@ -67,7 +67,7 @@ TEST(Aperture, WeighsSidesBySphericalAberrationWithAMeanOf1) {
     for (const LensSample &p : points) behind += double(p.behind), in_front += double(p.in_front);
     EXPECT_NEAR(behind / 4096, 1, 2e-3);
     EXPECT_NEAR(in_front / 4096, 1, 2e-3);
-    const Aperture round({.spherical = 0.7}); // a mean of exactly 1: 2 r^2 - 1 has none
+    const Aperture round({.spherical = 0.7}); // the mean is exactly 1, because 2 r^2 - 1 has mean 0
     EXPECT_NEAR(round.weight(true, 1), 1.7, 1e-12);
     EXPECT_NEAR(round.weight(true, 0), 0.3, 1e-12);
     EXPECT_NEAR(round.weight(false, 1), 0.3, 1e-12);
@@ -75,7 +75,8 @@ TEST(Aperture, WeighsSidesBySphericalAberrationWithAMeanOf1) {
 
 TEST(Aperture, OfAPictureHasItsPointsWhereTheLightIs) {
     auto picture = std::make_shared<AperturePicture>(AperturePicture{4, 2, {}});
-    // Above black, one red and one white square; below four green ones. R, G and B pass 1.5, 5 and 1 in all.
+    // The upper row: black, one red and one white square; the lower row: four green ones. In total R, G and B pass 1.5,
+    // 5 and 1.
     const float red[] = {1, 0, 0}, white[] = {1, 1, 1}, green[] = {0, 1, 0}, black[] = {0, 0, 0};
     for (const float *rgb : {black, red, white, black, green, green, green, green})
         picture->rgb.insert(picture->rgb.end(), rgb, rgb + 3);

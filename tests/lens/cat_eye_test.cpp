@@ -1,4 +1,4 @@
-// What a second circle leaves of the aperture.
+// The part of the aperture that a second circle leaves open.
 #include "base/image.h"
 #include "lens/cat_eye.h"
 
@@ -18,7 +18,7 @@ Windows window(int width, int height) {
     return windows;
 }
 
-// The area of a circle of radius 1 inside another one whose middle is d away, as a share.
+// The share of a circle of radius 1 inside another one whose middle is d away.
 double lens_of_two_circles(double d) {
     return d >= 2 ? 0 : (2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d)) / std::numbers::pi;
 }
@@ -39,8 +39,8 @@ TEST(CatEye, LeavesTheLensOfTwoCircles) {
     }
 }
 
-// A lens that weighs its rim more behind focus, by 1 + S (2 r^2 - 1), and less in front: the sum over what two circles share, a
-// million points of the square around the lens.
+// A lens that weights its rim more behind focus, by 1 + S (2 r^2 - 1), and less in front. The sum over the common area
+// of both circles uses a million points of the square around the lens.
 TEST(CatEye, LeavesOfARingWhatLiesWithinBothCircles) {
     constexpr double s = 0.9, d = 0.7;
     constexpr int n = 1000;
@@ -49,7 +49,7 @@ TEST(CatEye, LeavesOfARingWhatLiesWithinBothCircles) {
         for (int j = 0; j < n; ++j) {
             const double x = (i + 0.5) * 2 / n - 1, y = (j + 0.5) * 2 / n - 1, square = x * x + y * y;
             if (square > 1 || (x - d) * (x - d) + y * y > 1) continue;
-            behind += (1 + s * (2 * square - 1)) * 4 / (n * n * std::numbers::pi); // of the whole disc: 1
+            behind += (1 + s * (2 * square - 1)) * 4 / (n * n * std::numbers::pi); // 1 for the whole disc
             in_front += (1 - s * (2 * square - 1)) * 4 / (n * n * std::numbers::pi);
         }
     const LensLooks looks{.aperture = {.spherical = s}, .cat_eye = 1};
@@ -58,7 +58,7 @@ TEST(CatEye, LeavesOfARingWhatLiesWithinBothCircles) {
     const Imath::V2d p(40 + 50 * d, 30);
     EXPECT_NEAR(cat_eye.share(Light::behind, p), behind, 1e-3);
     EXPECT_NEAR(cat_eye.share(Light::in_front, p), in_front, 1e-3);
-    EXPECT_GT(in_front - behind, 0.01); // else the weights would not matter
+    EXPECT_GT(in_front - behind, 0.01); // otherwise the weights would not matter
 }
 
 TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
@@ -73,7 +73,7 @@ TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
         const CatEye cat_eye(aperture, looks, picture_frame(windows, looks));
         for (const Light light : {Light::evenly, Light::behind, Light::in_front}) {
             const std::vector<double> shares = cat_eye.shares(light, windows.data);
-            const double counted = shape.picture ? 5e-3 : 2e-3; // of pictures, points are counted
+            const double counted = shape.picture ? 5e-3 : 2e-3; // for pictures, points are counted
             for (std::size_t i = 0; i < shares.size(); ++i) {
                 const Imath::V2d p = Imath::V2d(windows.pixel(i)) + Imath::V2d(0.5);
                 ASSERT_NEAR(shares[i], cat_eye.share(light, p), counted) << p << shape.blades;

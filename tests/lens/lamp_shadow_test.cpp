@@ -36,7 +36,7 @@ TEST(LampShadow, HidesTheAreaOfARectangle) {
     }
 }
 
-// What moves along an axis hides one point after the other.
+// An object that moves along an axis hides one point after the other.
 TEST(LampShadow, ChangesByOnePointAtATime) {
     for (const bool across : {true, false}) {
         float last = 1;
@@ -55,14 +55,14 @@ TEST(LampShadow, ChangesByOnePointAtATime) {
     }
 }
 
-// In a pixel that a disc's edge crosses, only points in the disc are lit or not.
+// In a pixel that a disc's edge crosses, only points inside the disc count as lit or not.
 TEST(LampShadow, CountsWhatLiesInADisc) {
     const LampDisc disc{{5, 5}, {3, 3}}, wide{{5, 5}, {9, 9}};
     for (const float edge : {7.25f, 7.5f, 7.75f}) {
         LampShadow shadow;
         shadow.begin(box);
         shadow.hide({{edge, -9}, {19, 19}}, 1, 0);
-        int inside = 0, lit = 0; // of pixel (7, 5)
+        int inside = 0, lit = 0; // in pixel (7, 5)
         for (int i = 0; i < 10000; ++i) {
             const double x = 7 + (i % 100 + 0.5) / 100, y = 5 + (i / 100 + 0.5) / 100;
             inside += disc.contains(x, y);
@@ -121,7 +121,7 @@ TEST(LampShadow, LetsThroughWhatIsNotCovered) {
     }
 }
 
-// Against the definition, point by point: the lamp at q is hidden through u = (q - x) / c if x' + c' u covers q.
+// Compared with the definition, point by point: the lamp at q is hidden through u = (q - x) / c if x' + c' u covers q.
 TEST(ShadowMagnification, IsWhatSimilarTrianglesSay) {
     for (const double lamp_coc : {12.0, -9.0})
         for (const double coc : {-14.0, 0.0, 3.0}) {

@@ -12,7 +12,7 @@ namespace {
 
 using Points = std::vector<Imath::V2d>;
 
-// The area of a polygon within a box, by clipping it at each of its sides (I. Sutherland and G. Hodgman, 1974).
+// The area of a polygon inside a box, by clipping it at each side (I. Sutherland and G. Hodgman, 1974).
 double area_in(Points polygon, const Imath::Box2d &box) {
     for (const int axis : {0, 1})
         for (const int side : {0, 1}) {
@@ -37,7 +37,7 @@ double area_in(Points polygon, const Imath::Box2d &box) {
     return std::abs(twice) / 2;
 }
 
-// The corners of a regular polygon with the middle of a side at the angle `rotation`, as a lamp shows it.
+// The corners of a regular polygon as a lamp shows it, with the middle of a side at the angle `rotation`.
 Points corners(int n, double rotation, double squeeze, const Lamp &lamp) {
     Points points;
     for (int k = 0; k < n; ++k) {
@@ -50,7 +50,7 @@ Points corners(int n, double rotation, double squeeze, const Lamp &lamp) {
 
 constexpr int size = 64;
 
-// Weights of a square of pixels, gathered from tiles as the gather takes them.
+// The weights of a square of pixels, collected from tiles as in the gather.
 std::vector<double> picture_of(const ApertureShape &shape, const Lamp &lamp) {
     const Aperture aperture(shape);
     std::vector<double> weights(size * size);
@@ -114,7 +114,7 @@ TEST(LampSpread, OfRoundBladesIsThatOfTheDisc) {
 }
 
 TEST(LampSpread, BulgesWithTheCurvatureOfTheBlades) {
-    // A side's arc over a square: its height over the chord is `curvature` of that of the circle.
+    // The arc of a side over a square: its height over the chord is `curvature` times the circle's.
     const Lamp lamp{{32, 32}, 24};
     const double height = 0.4 * (1 - std::sqrt(0.5));
     const auto weights = picture_of({.blades = 4, .curvature = 0.4}, lamp);
@@ -140,7 +140,7 @@ TEST(LampSpread, InFrontOfFocusIsThePointMirrorOfBehind) {
                in_front = picture_of({.blades = 3, .rotation = 90}, {{32, 32}, -20});
     for (std::size_t i = 0; i < behind.size(); ++i)
         ASSERT_NEAR(behind[i], in_front[behind.size() - 1 - i], 1e-12);
-    // The side is on top behind focus: y is up there.
+    // Behind focus a side is on top, because y points up there.
     EXPECT_GT(behind[std::size_t(23 * size + 20)], 0);
     EXPECT_EQ(behind[std::size_t(40 * size + 20)], 0);
 }
@@ -153,7 +153,7 @@ TEST(LampSpread, WeighsRadiiAsTheSphericalAberrationSays) {
             const auto weights = picture_of(shape, lamp);
             EXPECT_NEAR(sum(weights), 1, 1e-6);
             const double s = coc > 0 ? spherical : -spherical;
-            // Pixels well within: the density of their middle, and the mean of r^2 over a square beside it.
+            // Pixels well inside: compares the density at their middle with the mean of r^2 over a square beside it.
             const auto within = [&](int x, int y) {
                 const double r2 =
                     (std::pow(x + 0.5 - lamp.centre.x, 2) + std::pow(y + 0.5 - lamp.centre.y, 2) + 1.0 / 6) /
@@ -228,7 +228,7 @@ TEST(LampSpread, OfAColouredPictureSumsTo1OfEachColour) {
     for (const double s : sums) EXPECT_NEAR(s, 1, 1e-9);
 }
 
-// A disc of 1e4 pixels seen in one tile costs and errs no more than a small one.
+// A disc of 1e4 pixels seen in one tile costs no more, and is as exact, as a small one.
 TEST(LampSpread, OfAHugeDiscIsEvenWithinIt) {
     const Aperture aperture({.blades = 6, .curvature = 0.3});
     const LampSpread spread = spread_lamp(aperture, {{1000, -700}, 1e4}, {{0, 0}, {63, 63}});

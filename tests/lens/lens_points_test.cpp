@@ -16,7 +16,7 @@ TEST(LensPoints, RimStartsOnTheRightAndTurnsUp) {
     EXPECT_TRUE(rim_lens_points(0).empty());
 }
 
-// A set that is even in area has the disc's moments: mean 0, mean of x^2 and of y^2 1/4, of r^4 1/3.
+// A set of uniform density has the disc's moments: mean 0, mean of x^2 and of y^2 1/4, of r^4 1/3.
 void expect_disc_moments(const std::vector<Imath::V2d> &points, double tolerance) {
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0, r4 = 0;
     for (const Imath::V2d &p : points) {

@@ -18,7 +18,7 @@ struct Means {
     double x = 0, y = 0, xx = 0, yy = 0, pixel_x = 0, pixel_y = 0;
 };
 
-// Weighted; y of the lens taken back to the unit disc.
+// Weighted means; y of the lens is converted back to the unit disc.
 Means means_of(const std::vector<LensSample> &samples, double pixel_aspect) {
     Means means;
     double total = 0;
@@ -62,7 +62,7 @@ TEST(LensSamples, OneIsTheMiddleOfTheLensAndOfThePixel) {
     EXPECT_EQ(s.pixel_y, 0);
 }
 
-// A picture neither moves nor spreads more in one direction: the moments of the disc, E x = 0, E x^2 = 1/4.
+// The picture does not move, and spreads equally in all directions: the moments of the disc, E x = 0, E x^2 = 1/4.
 TEST(LensSamples, HaveTheMomentsOfTheDisc) {
     for (const double aspect : {1.0, 2.0})
         for (const std::size_t n : {16u, 61u, 256u, 1024u}) {
@@ -77,7 +77,7 @@ TEST(LensSamples, HaveTheMomentsOfTheDisc) {
         }
 }
 
-// The share of points on one side of any line is the share of the disc there.
+// The share of points on one side of any line equals the disc's share there.
 TEST(LensSamples, AreEvenInArea) {
     constexpr std::size_t n = 256;
     const auto samples = disc_lens_samples(n, 1);
@@ -92,8 +92,8 @@ TEST(LensSamples, AreEvenInArea) {
         }
 }
 
-// In every part of the lens the pixel is looked through evenly too: the mean over a quarter of the lens and a
-// quarter of the pixel holds a sixteenth of the points, about.
+// In every part of the lens the pixel positions are uniform too: about a sixteenth of the points is in a given quarter
+// of the lens and quarter of the pixel.
 TEST(LensSamples, AreEvenOverLensAndPixelAtOnce) {
     constexpr std::size_t n = 1024;
     int count[2][2][2][2] = {};
@@ -111,11 +111,11 @@ TEST(LensSamples, AreStretchedByThePixelAspect) {
     }
 }
 
-constexpr int phases = 3; // of a sample in its pixel, along each axis
+constexpr int phases = 3; // positions of a sample in its pixel, along each axis
 
-using Weights = std::map<std::pair<int, int>, double>; // of pixels
+using Weights = std::map<std::pair<int, int>, double>; // pixel -> weight
 
-// What pixels see of a disc of a sample at `place`: exactly, each sum of a point of the lens and one of the pixel being a
+// The exact weights of pixels for the disc of a sample at `place`: the sum of a lens point and a pixel position is a
 // unit square.
 Weights exact_disc(double coc, const Imath::V2d &place) {
     constexpr int points = 4000;
@@ -132,7 +132,7 @@ Weights exact_disc(double coc, const Imath::V2d &place) {
     return weights;
 }
 
-// The sum of the squared errors of what pixels see of it, by a set of lens points.
+// The sum of squared errors of these weights for a set of lens points.
 double squared_error(const std::vector<Imath::V2d> &positions, double coc, const Imath::V2d &place) {
     Weights errors = exact_disc(coc, place);
     const std::vector<Imath::V2d> lens = spiral_lens_points(int(positions.size()));
@@ -145,7 +145,7 @@ double squared_error(const std::vector<Imath::V2d> &positions, double coc, const
     return sum;
 }
 
-// Over discs from focus to where most pixels meet one lens point or none, whatever their positions.
+// Over discs from focus to a size at which most pixels meet one lens point or none, for any positions.
 double mean_error(const std::vector<Imath::V2d> &positions) {
     double sum = 0;
     for (double coc = 0.5; coc <= 12; coc *= 1.3)
@@ -166,7 +166,7 @@ TEST(PixelPositions, OfTheGathersSetsLeaveLessErrorThanTheSequence) {
         EXPECT_LT(mean_error(pixel_positions(n)), mean_error(sequence(n))) << n;
 }
 
-// As a whole: within a decibel.
+// Over all discs, within a decibel.
 TEST(PixelPositions, ThreeDoForFour) {
     double own = 0, of_sequence = 0;
     for (const std::size_t n : numbers_with_own_steps()) {

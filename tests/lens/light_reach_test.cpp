@@ -1,4 +1,4 @@
-// How far looks spread light: closed forms.
+// The reach of light with looks: closed forms.
 #include "lens/light_reach.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(LightReach, IsTheDiscOfTheLens) {
     expect_reach({.chromatic_coc = {1.5, 0, -2.5}}, {10, 10}, -4, {6.5, 6.5});
 }
 
-// In the corner 1/d is 1 + K as large; x pixels right of the axis, 1 + tan X x / F.
+// In the corner 1/d is 1 + K times as large; x pixels right of the axis, 1 + tan X x / F.
 TEST(LightReach, FollowsThePlaneOfFocus) {
     const Imath::V2d slope = 8 * 0.5 * 2 / 12500.0 * Imath::V2d(100, 50); // of the CoC, in the corner
     expect_reach({.field_curvature = 0.5}, {200, 0}, 3, Imath::V2d(3 + 8 * 0.5) / (1 - slope.length()));

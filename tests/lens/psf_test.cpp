@@ -21,7 +21,7 @@ struct Weight {
     double value;
 };
 
-// All weights of a PSF that PsfRows gives, box by box.
+// All weights that PsfRows gives for a PSF, box by box.
 std::vector<Weight> fast_weights(const Psf &psf) {
     constexpr int size = PsfRows::max_size;
     const double ry = psf.radius * psf.pixel_aspect;
@@ -45,7 +45,7 @@ std::vector<Weight> fast_weights(const Psf &psf) {
 double disc_area(const Psf &psf) { return std::numbers::pi * psf.radius * psf.radius * psf.pixel_aspect; }
 
 TEST(Psf, ClosedForms) {
-    const Psf quarter{{0, 0}, 1, 1}; // centre on a corner: a quarter each
+    const Psf quarter{{0, 0}, 1, 1}; // centre on a corner: a quarter for each pixel
     EXPECT_NEAR(psf_weight(quarter, 0, 0), 0.25, 1e-12);
     EXPECT_NEAR(psf_weight(quarter, -1, 0), 0.25, 1e-12);
     EXPECT_EQ(psf_weight(quarter, 1, 0), 0);
@@ -58,7 +58,7 @@ TEST(Psf, ClosedForms) {
     // x^2).
     const double edge = std::sqrt(3.0), beyond = std::numbers::pi / 3 - edge / 2;
     EXPECT_NEAR(psf_weight({{0, 0}, 2, 1}, 1, 0) * 4 * std::numbers::pi, edge - 1 + beyond, 1e-12);
-    // An ellipse twice as high as wide covers what the disc covers in pixels half as high.
+    // An ellipse twice as high as wide covers the same as the disc does in pixels of half the height.
     const Psf tall{{0, 0}, 1.5, 2};
     EXPECT_NEAR(psf_weight(tall, 0, 2) + psf_weight(tall, 0, 3), psf_weight({{0, 0}, 1.5, 1}, 0, 1), 1e-12);
 }
@@ -85,7 +85,7 @@ TEST(Psf, FastWeightsAreTheExactOnes) {
         const Psf psf{{5 * random_unit(i, 2) - 2, 5 * random_unit(i, 3) - 2},
                       radius,
                       i % 3 ? 1 : 0.5 + random_unit(i, 4)};
-        const double unit = std::min(1.0, disc_area(psf)); // the most a weight times the disc's area can be
+        const double unit = std::min(1.0, disc_area(psf)); // the largest weight times the disc's area
         const int reach = int(radius * std::max(1.0, psf.pixel_aspect)) + 5, width = 2 * reach + 1;
         std::vector<double> fast(std::size_t(width) * std::size_t(width), 0.0);
         const auto index = [&](int x, int y) { return std::size_t((y + reach) * width + x + reach); };
@@ -140,7 +140,7 @@ TEST(Psf, CentreOfMassIsTheCentre) {
             x += weight.value * (weight.x + 0.5);
             y += weight.value * (weight.y + 0.5);
         }
-        // A pixel's light counts as being in its centre: right to within what the border pixels average out.
+        // A pixel's light counts at its centre: correct to within what the border pixels average out.
         EXPECT_NEAR(x, psf.centre.x, radius < 1 ? 0.35 : 0.01);
         EXPECT_NEAR(y, psf.centre.y, radius < 1 ? 0.35 : 0.01);
     }

@@ -50,12 +50,12 @@ TEST(ThinLens, PointBehindFocusMovesWithTheLensPoint) {
     EXPECT_DOUBLE_EQ(seen.y, 14);
 }
 
-// A view moved so that the plane of focus stays put shows each point where the lens does.
+// A view moved so that the plane of focus stays in place shows each point where the lens does.
 TEST(ThinLens, AViewMovedOntoTheFocusPlaneIsTheViewThroughThatLensPoint) {
     const ThinLens anamorphic{.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = 2};
     const Imath::V2d p(100, 50), u(0.6, -0.7);
     for (const double z : {0.7, 5.0, 40.0, inf}) {
-        const Imath::V2d q = p - (seen_from_centre(anamorphic, p, z, u) - p); // where the view shows it
+        const Imath::V2d q = p - (seen_from_centre(anamorphic, p, z, u) - p); // its position in the view
         const Imath::V2d moved = seen_from_centre(anamorphic, q, anamorphic.focus, u);
         const Imath::V2d seen = seen_through(anamorphic, p, circle_of_confusion(anamorphic, z), u);
         EXPECT_NEAR(moved.x, seen.x, 1e-10);

@@ -26,7 +26,7 @@ TEST(FiguresText, JsonKeepsAllDigitsAndInfinityIsNull) {
                                           {"max_alpha", 0},
                                           {"pixels", 100},
                                           {"nonfinite", {{"image", 3}, {"reference", 4}}}};
-    EXPECT_EQ(json, expected); // the order of the keys too
+    EXPECT_EQ(json, expected); // including the order of the keys
     ErrorFigures with_flip = some;
     with_flip.flip = 0.125;
     EXPECT_EQ(nlohmann::json::parse(figures_as_json(with_flip, {})).at("flip"), 0.125);

@@ -19,7 +19,7 @@ Image constant(int width, int height, const std::array<float, 3> &rgb) {
     return image;
 }
 
-// Blocks of colours with noise, as no filter sees noise alone.
+// Blocks of colours with noise, because filters blur noise alone away.
 Image random_picture(int width, int height, unsigned seed, float brightest = 1) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<float> uniform(0, 1);
@@ -46,11 +46,11 @@ PlainRgb plain(const Image &image) {
     return rgb;
 }
 
-// No feature, and filters change nothing: the colour error alone. Black and white are 100 apart.
+// Without features and with filters that change nothing, only the colour error remains. Black and white are 100 apart.
 TEST(Flip, OfConstantPicturesIsTheDistanceOfTheirColours) {
     const auto expect = [](const std::array<float, 3> &a, const std::array<float, 3> &b, double expected) {
         for (const float value : flip_map(constant(9, 30, a), constant(9, 30, b), FlipRange::ldr))
-            ASSERT_NEAR(value, expected, 3e-5); // filters add floats
+            ASSERT_NEAR(value, expected, 3e-5); // filters sum in float
     };
     expect({0.25f, 0.5f, 1}, {0.25f, 0.5f, 1}, 0);
     expect({0, 1, 0}, {0, 0, 1}, 1);
@@ -120,7 +120,7 @@ TEST(Flip, LeavesOutWhatIsNotFinite) {
     EXPECT_TRUE(std::isnan(flip_means(std::vector<float>(900, 0.25f), bits, 2)[2]));
 }
 
-// The film shows 2.1189 as 0.85.
+// The film curve shows 2.1189 as 0.85.
 TEST(Flip, ExposesFromTheBrightestToTheMedian) {
     Image picture = constant(10, 10, {1, 1, 1});
     const double value = 2.118869;
@@ -135,7 +135,7 @@ TEST(Flip, ExposesFromTheBrightestToTheMedian) {
     EXPECT_TRUE(std::isfinite(flip_exposures(constant(4, 4, {0, 0, 0})).front()));
 }
 
-// The exposures follow the reference.
+// The exposures are chosen from the reference.
 TEST(Flip, OfHighDynamicRangeDoesNotDependOnTheUnitOfLight) {
     Image a = random_picture(40, 30, 6, 20), b = random_picture(40, 30, 7, 20);
     const double flip = flip_of(a, b, FlipRange::hdr);

@@ -68,7 +68,7 @@ struct Plain {
     double smape() const {
         return mean([](double a, double b) { return std::abs(a - b) / (std::abs(a) + std::abs(b) + 0.01); });
     }
-    double percentile(double share) const { // the smallest error that `share` of the values do not exceed
+    double percentile(double share) const { // smallest error that `share` of the values do not exceed
         std::vector<double> errors;
         for (const auto &[a, b] : values) errors.push_back(std::abs(a - b));
         std::sort(errors.begin(), errors.end());
@@ -177,10 +177,10 @@ TEST(ImageError, RegionsCountTheirOwnPixels) {
         EXPECT_TRUE(std::isnan(figures[3].*figure.value)) << figure.name;
 }
 
-// 0 and 1 are 0 and 1/2^(1/2.2) when tone-mapped.
+// Tone-mapped, 0 and 1 become 0 and 1/2^(1/2.2).
 TEST(ImageError, WorstBlocksAreTheMeanOfOneInAHundred) {
     const double one = std::pow(std::pow(0.5, 1 / 2.2), 2), third = one / 3; // of one channel
-    const Image black = constant(168, 80, {0, 0, 0, 1}); // 210 blocks: three are the worst
+    const Image black = constant(168, 80, {0, 0, 0, 1}); // 210 blocks: the worst hundredth is three
     Image a = black;
     a.at(1, 20, 30) = 1;
     EXPECT_NEAR(whole(a, black).psnr_worst, -10 * std::log10(third / 64 / 3), 1e-6);
@@ -191,7 +191,7 @@ TEST(ImageError, WorstBlocksAreTheMeanOfOneInAHundred) {
     for (const int x : {0, 8}) a.at(0, x, 0) = 0.01f; // below those
     EXPECT_NEAR(whole(a, black).psnr_worst, -10 * std::log10(5 * third / 64 / 3), 1e-6);
 
-    // What is left of a block at the edge is one of its own, and so is what a region has of it.
+    // The rest of a block at the edge counts as a block, and so does the part of a block inside a region.
     Image narrow = constant(81, 80, {0, 0, 0, 1});
     const Image reference = narrow;
     narrow.at(0, 80, 7) = narrow.at(0, 3, 40) = 1;
@@ -221,11 +221,11 @@ TEST(ImageError, SsimAgreesWithThePlainFormulas) {
     for (const double value : windows) sum += value;
     const double ssim = whole(a, b).ssim;
     EXPECT_NEAR(ssim, sum / double(windows.size()), 1e-6);
-    EXPECT_LT(ssim, 0.95); // or the noise says nothing
+    EXPECT_LT(ssim, 0.95); // otherwise the noise proves nothing
 }
 
 TEST(ImageError, SsimOfARegionIsThatOfItsWindowCentres) {
-    // The left half is equal, the right half is not: windows centred up to 5 pixels inside the left see it.
+    // The left half is equal, the right half is not: windows centred up to 5 pixels inside the left half see it.
     Image b = noise(40, 20, 8, 0, 1), a = b;
     for (int y = 0; y < 20; ++y)
         for (int x = 20; x < 40; ++x) a.at(1, x, y) += 0.5f;

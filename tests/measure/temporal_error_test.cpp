@@ -1,4 +1,4 @@
-// How steady sequences are: closed forms, for tone-mapped values that are chosen.
+// The steadiness of sequences: closed forms, for chosen tone-mapped values.
 #include "measure/temporal_error.h"
 #include "measure/temporal_text.h"
 
@@ -11,13 +11,13 @@
 namespace sparselens {
 namespace {
 
-// The scene-linear value that is tone-mapped to v, in [0, 1).
+// The scene-linear value whose tone-mapped value is v, in [0, 1).
 float linear(double v) {
     const double x = std::pow(v, 2.2);
     return float(x / (1 - x));
 }
 
-// One row of grey pixels of these tone-mapped values.
+// One row of grey pixels with these tone-mapped values.
 Image frame(const std::vector<double> &tones) {
     Image image(windows_of_size(int(tones.size()), 1), rgba_channels());
     for (std::size_t i = 0; i < tones.size(); ++i)
@@ -47,7 +47,7 @@ TEST(TemporalError, ChangesAreComparedNotValues) {
         other.add(slower, &reference);
     }
     EXPECT_GT(*same.figures().psnr_change, 120);
-    // One of two pixels changes by 0.05 less in each step.
+    // One of two pixels changes by 0.05 less than expected in each step.
     EXPECT_NEAR(*other.figures().psnr_change, -10 * std::log10(0.05 * 0.05 / 2), 1e-3);
     EXPECT_LT(other.figures().reference->largest, 1e-6);
 }

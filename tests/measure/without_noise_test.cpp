@@ -1,4 +1,4 @@
-// The error without the noise of two references: closed forms, and noise that is known.
+// The error without the noise of two references: closed forms, and known noise.
 #include "measure/without_noise.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-// The scene-linear value that is tone-mapped to v, in [0, 1).
+// The scene-linear value whose tone-mapped value is v, in [0, 1).
 float linear(double v) {
     const double x = std::pow(v, 2.2);
     return float(x / (1 - x));
@@ -21,7 +21,7 @@ Image grey(double tone, double noise = 0, unsigned seed = 0) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     for (std::size_t i = 0; i < image.windows.pixels(); ++i) {
-        const float v = linear(tone + noise * normal(random)); // of all channels alike
+        const float v = linear(tone + noise * normal(random)); // the same in all channels
         for (std::size_t c = 0; c < 4; ++c) image.plane(c)[i] = c == 3 ? 1 : v;
     }
     return image;
@@ -39,7 +39,7 @@ TEST(WithoutNoise, NoiseOfTheReferencesIsNotInIt) {
     const ErrorWithoutNoise found =
         error_without_noise(grey(0.52), grey(0.5, 0.05, 1), grey(0.5, 0.05, 2))[0];
     EXPECT_TRUE(found.is_told());
-    EXPECT_NEAR(found.decibels(), 34, 1.2); // three deviations: 0.05^2 / 78 of 0.02^2
+    EXPECT_NEAR(found.decibels(), 34, 1.2); // three standard deviations: 0.05^2 / 78 of 0.02^2
     EXPECT_LT(found.at_least(), found.decibels());
 }
 
@@ -54,7 +54,7 @@ TEST(WithoutNoise, TheDeviationIsThatOfManyPairs) {
         deviation += found.deviation / pairs;
         EXPECT_LT(std::abs(found.mean_square), 4 * found.deviation);
     }
-    EXPECT_NEAR(deviation, std::sqrt(squares), 0.35 * std::sqrt(squares)); // 3 deviations of a spread of 40
+    EXPECT_NEAR(deviation, std::sqrt(squares), 0.35 * std::sqrt(squares)); // 3 deviations with 40 values
 }
 
 TEST(WithoutNoise, ByRegionAndWithoutWhatIsNotFinite) {

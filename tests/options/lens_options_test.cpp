@@ -10,7 +10,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// Parses the words as the options of a tool; what CLI11 throws reaches the caller.
+// Parses the words as the options of a tool; exceptions of CLI11 reach the caller.
 LensValues parsed(std::vector<std::string> words) {
     CLI::App app;
     LensValues options;

@@ -28,8 +28,8 @@ std::string row(const PixelMask &mask, int y) {
     return text;
 }
 
-// A card in pixels 20 to 29 at z = 2 before a wall at z = 10: seen from the right it moves 5 px to the left, the
-// wall 1. What opens is 4 px wide, right of the card.
+// A card in pixels 20 to 29 at z = 2 before a wall at z = 10: from the right it moves 5 px to the left, the wall 1. The
+// uncovered area is 4 px wide, to the right of the card.
 TEST(Disocclusion, WhatOpensBesideACard) {
     const MovedDepth from_right = moved([](int x, int) { return x >= 20 && x < 30 ? 2.0f : 10.0f; });
     for (int y = 0; y < 20; ++y)
@@ -37,7 +37,7 @@ TEST(Disocclusion, WhatOpensBesideACard) {
     const MovedDepth from_left = moved([](int x, int) { return x >= 20 && x < 30 ? 2.0f : 10.0f; }, {-1, 0});
     EXPECT_EQ(row(disoccluded(from_left), 7), std::string(21, '.') + "####" + std::string(35, '.'));
     const MovedDepth from_above = moved([](int, int y) { return y >= 8 && y < 12 ? 2.0f : 10.0f; }, {0, 1});
-    // u.y is up and y down: the bar moves down by 5 px, the wall by 1.
+    // u.y points up and y down: the bar moves down by 5 px, the wall by 1.
     for (int y = 0; y < 20; ++y) EXPECT_EQ(disoccluded(from_above).at(30, y), y >= 9 && y < 13) << y;
 }
 
@@ -50,7 +50,7 @@ TEST(Disocclusion, WhatAWireHides) {
     EXPECT_EQ(without_slits(wider).set, wider.set);
 }
 
-// One surface has no cracks, however it slants or bends, and at any depth.
+// One surface has no cracks at any slant, bend or depth.
 TEST(Disocclusion, OneSurfaceHidesNothing) {
     const std::vector<std::function<float(int, int)>> surfaces{
         [](int, int) { return 3.7f; }, [](int, int) { return inf; },
@@ -64,13 +64,13 @@ TEST(Disocclusion, OneSurfaceHidesNothing) {
         }
 }
 
-// Seen from the right, pixels at the right edge show what lies beyond the centre view's frame.
+// From the right, pixels at the right edge show what is beyond the centre view's frame.
 TEST(Disocclusion, BeyondTheFrame) {
     const MovedDepth wall = moved([](int, int) { return 2.0f; });
     EXPECT_EQ(row(unseen_by_centre(wall), 3).substr(0, 54), std::string(54, '.'));
     EXPECT_EQ(row(unseen_by_centre(wall), 3).substr(56), "####");
     EXPECT_EQ(row(wall.edge, 3), std::string(55, '.') + "#####");
-    // Sky does not move; but what stands at the edge nearby may have a neighbour beyond the frame.
+    // Sky does not move, but an object near the edge may have a neighbour beyond the frame.
     const MovedDepth sky = moved([](int, int y) { return y < 10 ? inf : 2.0f; });
     EXPECT_EQ(row(unseen_by_centre(sky), 3), std::string(60, '.'));
     EXPECT_EQ(row(sky.edge, 3), std::string(55, '.') + "#####");

@@ -46,7 +46,7 @@ TEST(Noise, GaussianNoiseIsMeasured) {
     }
 }
 
-// Random blades, upright or at 45 degrees, differ from pixel to pixel across, but not along.
+// Random blades, upright or at 45 degrees, differ from pixel to pixel across them, but not along them.
 TEST(Noise, BladesAreNone) {
     for (const int slant : {0, 1}) {
         std::mt19937 random(3);
@@ -57,7 +57,7 @@ TEST(Noise, BladesAreNone) {
     }
 }
 
-// Aliased texture: one block in four looks as noise does.
+// Aliased texture: one block in four looks like noise.
 TEST(Noise, WhatLooksLikeNoiseHereAndThereIsNone) {
     const auto with_a_noisy_block_in = [](int blocks) {
         std::mt19937 random(5);
@@ -71,7 +71,7 @@ TEST(Noise, WhatLooksLikeNoiseHereAndThereIsNone) {
     EXPECT_GT(with_a_noisy_block_in(1), 3e-4);
 }
 
-// Only the left half has noise: it is found there, except in the blocks beside the border.
+// Only the left half has noise, which is found there, except in the blocks beside the border.
 TEST(Noise, IsFoundWhereItIs) {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0.5, 0.02);

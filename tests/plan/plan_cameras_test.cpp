@@ -21,7 +21,7 @@ Plan plan_of(std::initializer_list<Imath::V2d> points) {
     return plan;
 }
 
-// At (1,2,3), looking along world x, with world z up: right is -y.
+// At (1,2,3), looking along world x, with world z up: its right is -y.
 Camera turned_camera() {
     Camera camera;
     camera.world_to_camera = Imath::M44d(0, 0, 1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 2, -3, -1, 1);
@@ -40,7 +40,7 @@ TEST(PlanCameras, StandBesideTheCentreInItsAxes) {
         return camera_to_world_looking_back(*planned.cameras[i].world_to_camera);
     };
     EXPECT_EQ(place(0).translation(), Imath::V3d(1, 2, 3));
-    EXPECT_EQ(place(1).translation(), Imath::V3d(1, 1.5, 3)); // half a unit to the right, which is -y
+    EXPECT_EQ(place(1).translation(), Imath::V3d(1, 1.5, 3)); // half a unit to the right, along -y
     EXPECT_EQ(place(2).translation(), Imath::V3d(1, 2, 2.5)); // half a unit down
     EXPECT_EQ(place(0), Imath::M44d(0, -1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 1, 2, 3, 1)); // right, up, backward
 }
@@ -50,7 +50,7 @@ TEST(PlanCameras, HaveTheScreenWindowOfTheCentre) {
     EXPECT_EQ(cameras_of({}, camera, lens, 200).window.width, 2);
     EXPECT_EQ(cameras_of({}, camera, lens, 200).window.centre, Imath::V2d(0, 0));
     camera.principal_point =
-        Imath::V2d(0.25, 0.125); // right of and below the middle, which is then left and above
+        Imath::V2d(0.25, 0.125); // right of and below the middle; the middle moves left and up
     EXPECT_EQ(cameras_of({}, camera, lens, 200).window.centre, Imath::V2d(-0.5, 0.25));
 }
 

@@ -45,7 +45,7 @@ TEST(Plan, ALensOfRadiusZeroAsksForNothing) {
     EXPECT_TRUE(plan_of(card_before_wall(), {.views = 0}).views.empty());
 }
 
-// Each side of the card uncovers 4 px from its own side; the views above and below look behind its other two edges.
+// Each side view uncovers 4 px on its own side of the card; the views above and below look behind the other two edges.
 TEST(Plan, ACardAsksForStripsAroundIt) {
     const Plan plan = plan_of(card_before_wall());
     ASSERT_EQ(plan.views.size(), 4u);
@@ -55,7 +55,7 @@ TEST(Plan, ACardAsksForStripsAroundIt) {
     EXPECT_GT(plan.share(), 4 * 8 * 24 / 4800.0);
 }
 
-// Three columns: that which the wire hid, and one on either side. Seen from the left, it is the same column.
+// Three columns: the one that the wire hid, and one on either side. From the left it is the same column.
 TEST(Plan, AWireAsksForTheColumnItHides) {
     const View wire = make_view(windows_of_size(80, 60), {0, 0}, [](int x, int) {
         return ViewPixel{.z = x == 40 ? 2.0f : 10.0f, .r = x == 40 ? 1.0f : 0.2f};
@@ -66,7 +66,7 @@ TEST(Plan, AWireAsksForTheColumnItHides) {
     for (int x = 10; x < 70; ++x) EXPECT_EQ(plan.views[0].mask.at(x, 30), std::abs(x - 39) <= 1) << x;
 }
 
-// Two columns at either side of a bar, of which each bar has 8 columns of its own and 64 beside it, or 100.
+// Two columns on either side of a bar. Each bar has 8 columns itself and 64 beside it, or 100.
 TEST(Plan, ManyEdgesAskForFineViews) {
     const auto bars = [](int apart, float z) {
         return make_view(windows_of_size(1200, 4), {0, 0}, [=](int x, int) {
@@ -90,7 +90,8 @@ TEST(Plan, NoiseAsksForWholeViews) {
     EXPECT_EQ(noisy.share(), 4);
 }
 
-// Noise where the picture is in focus, none where it is blurred: what is noisy is asked for, where each view shows it.
+// Noise where the picture is in focus, none where it is blurred: the noisy pixels are asked for where each view shows
+// them.
 TEST(Plan, NoiseIsAskedForWhereItIs) {
     const ThinLens wide{
         .radius = 0.4, .focal_px = 100, .focus = 5}; // CoC -4 px at z = 3.33, perceptive depth 12
@@ -103,7 +104,7 @@ TEST(Plan, NoiseIsAskedForWhereItIs) {
     const Plan plan = plan_of(view, {.views = 2}, wide);
     EXPECT_FALSE(plan.full_views);
     ASSERT_EQ(plan.views.size(), 2u);
-    for (const PlannedView &planned : plan.views) // perceptive depth 8 there
+    for (const PlannedView &planned : plan.views) // their perceptive depth is 8
         for (int x = 12; x < 60; ++x) EXPECT_TRUE(planned.mask.at(x, 30)) << x;
     EXPECT_NEAR(double(plan.noisy), 80 * 60, 8 * 60);
     EXPECT_FALSE(plan.views[0].mask.at(120, 30));
@@ -127,7 +128,7 @@ TEST(Plan, OverscanIsTheLargestCocAlongTheEdge) {
     EXPECT_EQ(overscan.bottom, 1);
 }
 
-// A pixel twice as wide as high: the same disc is twice as many pixels high.
+// With pixels twice as wide as high, the same disc is twice as many pixels high.
 TEST(Plan, OverscanAboveAndBelowCountsThePixelsAspect) {
     ThinLens stretched = lens;
     stretched.pixel_aspect = 2;
@@ -165,7 +166,7 @@ TEST(PlanFile, MasksAndRectanglesComeBack) {
     }
 }
 
-// As a file of a few bytes may ask for more memory, or work, than there is.
+// A file of a few bytes may ask for more memory or work than is available.
 TEST(PlanFile, ViewsAreRefusedThatNobodyCouldRender) {
     const ScratchFolder folder;
     const auto says = [&](const std::string &window, const std::string &rectangles) {
@@ -191,7 +192,7 @@ TEST(PlanFile, ViewsAreRefusedThatNobodyCouldRender) {
     refused("[0, 0, 9, 9]", often, "overlap too often");
 }
 
-// 1000 views of 16384 x 16384 pixels: as masks 268 GB.
+// 1000 views of 16384 x 16384 pixels would be 268 GB as masks.
 TEST(PlanFile, ViewsTakeNoMemoryBeforeTheyAreRendered) {
     const ScratchFolder folder;
     std::string text = R"({"display_window": [0, 0, 9, 9], "views": [)";

@@ -37,7 +37,7 @@ TEST(Rectangles, FarThingsStayApart) {
     EXPECT_EQ(boxes, (std::vector{Imath::Box2i({0, 5}, {0, 204}), Imath::Box2i({250, 5}, {250, 204})}));
 }
 
-// Whatever is asked for is held, and what joining wastes is bounded.
+// All requested pixels are covered, and joining wastes a bounded number.
 TEST(Rectangles, HoldAllThatIsAskedFor) {
     const auto patterns = {
         mask_of([](int x, int y) { return std::hypot(x - 100, y - 100) < 60; }),

@@ -74,7 +74,7 @@ TEST(PositionRelativeTo, TurnedOrScaledCamerasAreAnErrorThatNamesTheView) {
               std::string::npos);
 }
 
-// Matrices are stored as float: rounding is not a turn.
+// Matrices are stored as float: rounding is not a rotation.
 TEST(PositionRelativeTo, AxesMayDifferByTheRoundingOfFloat) {
     Imath::M44d turn;
     turn.rotate(Imath::V3d(0.3, 0.4, 0.5));

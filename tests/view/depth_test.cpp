@@ -25,7 +25,7 @@ TEST(PlanarDepth, InverseZeroIsInfinity) {
 }
 
 TEST(PlanarDepth, OnTheAxisARayIsAsLongAsItsDepth) {
-    const Windows w = windows_of_size(201, 101); // a pixel centre lies on the axis
+    const Windows w = windows_of_size(201, 101); // a pixel centre is on the axis
     EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 7, 100, 50, w, focal_px), 7);
     EXPECT_EQ(planar_depth(DepthMeaning::distance, inf, 0, 0, w, focal_px), inf);
 }
@@ -52,7 +52,8 @@ TEST(PlanarDepth, PixelAspectStretchesRows) {
     EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 175, 200, w, focal_px), 4);
 }
 
-// A lens shifted by an eighth and a quarter of the picture's width: the axis meets it 25 to the right and 50 below.
+// A lens shifted by an eighth and a quarter of the picture's width: the axis meets the picture 25 to the right and 50
+// below.
 TEST(PlanarDepth, TheAxisGoesThroughThePrincipalPoint) {
     const Windows w{Imath::Box2i({0, 0}, {199, 199}), Imath::Box2i({0, 0}, {199, 199})};
     const Imath::V2d shifted(0.1275, 0.2525); // to the centres of pixels

@@ -9,7 +9,7 @@
 namespace sparselens {
 namespace {
 
-// A camera turned and far from the world's origin, then moved across its own lens.
+// A camera that is rotated and far from the world's origin, then moved in the plane of its lens.
 Camera camera_at(double x, double y, double z = 0) {
     Imath::M44d to_world, move;
     to_world.rotate(Imath::V3d(0.3, -0.7, 0.2));
@@ -22,7 +22,7 @@ Camera camera_at(double x, double y, double z = 0) {
     return camera;
 }
 
-// Files that say nothing have one pixel for each of the picture.
+// Files without the attribute have one pixel per pixel of the picture.
 TEST(PlaceViews, ViewsHaveTheSubpixelsOfTheCentre) {
     const auto placed = [](std::optional<int> centre, std::optional<int> view) {
         std::vector<StatedView> stated{{"center.exr", {}, {}}, {"view.exr", {}, Imath::V2d(1, 0)}};
@@ -78,7 +78,7 @@ TEST(LensViews, ElseTheMeanOfThePositions) {
 }
 
 TEST(LensViews, WorldToNdcFollowsTheCamera) {
-    Imath::M44d projection; // some camera space to NDC
+    Imath::M44d projection; // camera space to NDC
     projection[0][0] = 1.5;
     projection[1][1] = -2;
     projection[2][3] = 1;
@@ -101,7 +101,7 @@ TEST(LensViews, RefusesWhatIsNoLens) {
     EXPECT_THROW(position_on_lens(std::vector{camera_at(0, 0), Camera()}, names, {}), UsageError);
 }
 
-// `camera`, with a projection whose axis is off the middle by this share of the picture's width, right and down.
+// `camera` with a projection whose axis is off the middle by this share of the picture's width, right and down.
 Camera framed(Camera camera, const Imath::V2d &off, double field = 0.5) {
     const double across = 1 / field, down = across * 16 / 9;
     const Imath::M44d projection(across, 0, 0, 0, 0, -down, 0, 0, 0.5 + off.x, 0.5 + off.y * 16 / 9, 1, 1, 0,
@@ -122,7 +122,7 @@ TEST(LensViews, FramingsAreThoseOfTheirFrusta) {
     EXPECT_EQ(placed.framings[1], (Framing{.principal_point = {0.02, 0.01}}));
     EXPECT_NEAR(placed.framings[2].forward, 0.05, 1e-4);
     EXPECT_NEAR(placed.framings[2].zoom, 0.5 / 0.51, 1e-6);
-    EXPECT_EQ(placed.framings[3], Framing()); // what float's rounding makes of the matrices is none
+    EXPECT_EQ(placed.framings[3], Framing()); // float rounding of the matrices is not a framing
 }
 
 TEST(LensViews, WhatAViewDoesNotSayIsAsInTheCentre) {
@@ -137,7 +137,7 @@ TEST(LensViews, WhatAViewDoesNotSayIsAsInTheCentre) {
     EXPECT_DOUBLE_EQ(framing_relative_to(centre, view, "v").zoom, 1.25);
 }
 
-// Options have made the field another than the matrix has it: then it is theirs.
+// Options have changed the field of the matrix, so the options decide.
 TEST(LensViews, OptionsGoBeforeMatrices) {
     Camera centre = framed(camera_at(0, 0), {0, 0}), view = framed(camera_at(0.1, 0), {0, 0}, 0.6);
     EXPECT_NEAR(framing_relative_to(centre, view, "v").zoom, 0.5 / 0.6, 1e-6);

@@ -38,7 +38,7 @@ TEST(CameraWithOptions, OptionsWin) {
     EXPECT_EQ(camera_with_options({}, known_camera()).fstop, 2.5);
 }
 
-// Four metres are 400 centimetres, whether the file or the option says that a unit is one.
+// Four metres are 400 centimetres, whether the file or the option gives the unit.
 TEST(CameraWithOptions, AnotherSceneUnitLeavesTheFocusWhereItIs) {
     LensValues options;
     options.scene_unit = 0.01;
@@ -60,7 +60,7 @@ TEST(LensRadius, ByTheFNumber) {
     EXPECT_FALSE(lens_radius_of({}));
 }
 
-// The radius goes into the metadata as an f-number, and back.
+// The radius is stored in the metadata as an f-number, and read back.
 TEST(LensRadius, ByTheOptionAndBack) {
     LensValues options;
     options.lens_radius = 0.125;
@@ -70,7 +70,7 @@ TEST(LensRadius, ByTheOptionAndBack) {
     EXPECT_EQ(camera_with_options(options, known_camera()).fstop, inf);
 }
 
-// Without a focal length there is no f-number to keep it as.
+// Without a focal length no f-number can store it.
 TEST(LensRadius, IsKeptAsGiven) {
     Camera camera;
     camera.field = 1;
@@ -79,7 +79,7 @@ TEST(LensRadius, IsKeptAsGiven) {
     camera = camera_with_options(values, camera);
     EXPECT_EQ(lens_radius_of(camera), 0.1);
     EXPECT_FALSE(camera.fstop);
-    values = {.fstop = 4, .focus_distance = {}}; // the last one given holds
+    values = {.fstop = 4, .focus_distance = {}}; // the last one given applies
     EXPECT_FALSE(camera_with_options(values, camera).lens_radius);
 }
 

@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-// 50 mm at f/2 on a film back of 25 mm and 100 pixels: 4 pixels a mm, a radius of 12.5 mm.
+// 50 mm at f/2 on a film back of 25 mm and 100 pixels: 4 pixels per mm, a radius of 12.5 mm.
 Camera camera() {
     Camera camera;
     camera.focal_length_mm = 50;
@@ -43,7 +43,8 @@ TEST(ResolveLooks, CarriesTheShapeAndTheCatEye) {
                                 .astigmatism = -0.4}));
 }
 
-// Red that is sharp 0.1 mm behind the sensor has a cone of 0.1 / (2 N) mm there, as what lies in front of focus has.
+// Red that is sharp 0.1 mm behind the sensor has a cone of 0.1 / (2 N) mm at the sensor, as objects in front of focus
+// have.
 TEST(ResolveLooks, ShiftsTheFocusOfColours) {
     const double coc = 0.1 / (2 * 2) * 4; // pixels
     using Cocs = std::array<double, 3>;

@@ -13,7 +13,7 @@ namespace {
 constexpr float sky = 1e10f;
 constexpr int width = 120, height = 90;
 
-// A wall of Z 6, of 0.5 and its noise; speckles at random, with the wall's colour, and holes with that of the sky.
+// A wall of Z 6, of 0.5 plus noise; random speckles with the wall's colour, and holes with the colour of the sky.
 struct Wall {
     double speckled = 0, holes = 0;
     bool is_speckle(int x, int y) const { return random_unit(x, y, 1) < speckled; }
@@ -37,14 +37,14 @@ TEST(Speckles, TakeTheDepthOfTheWallAroundThem) {
         std::size_t speckles = 0, left = 0;
         for (const float z : view.z) speckles += z == sky;
         const std::size_t settled = settle_speckles(view);
-        for (int y = 1; y + 1 < height; ++y) // a corner has three neighbours, and a border five
+        for (int y = 1; y + 1 < height; ++y) // corners have three neighbours, borders five
             for (int x = 1; x + 1 < width; ++x) {
                 const float z = view.z[std::size_t(y * width + x)];
                 if (z == sky)
                     ++left;
                 else
                     ASSERT_NEAR(z, 6 + 0.01f * float(x), 0.021f)
-                        << x << " " << y; // of a pixel beside, or two away
+                        << x << " " << y; // of a neighbour, or a pixel two away
             }
         EXPECT_LE(settled, speckles);
         EXPECT_GE(settled + 2 * (width + height), speckles);
@@ -64,7 +64,7 @@ TEST(Speckles, HolesThatShowTheSkyStay) {
 
 TEST(Speckles, PicturesWithoutThemStay) {
     const View whole = Wall{}.view(), holes = Wall{0, 0.05}.view(), few = Wall{0.001}.view();
-    // Half of it sky of the wall's own colour: an edge is none, nor is a corner.
+    // Half of it is sky with the wall's own colour: neither an edge nor a corner is a speckle.
     const View half = make_view(windows_of_size(width, height), {0, 0}, [](int x, int y) {
         return ViewPixel{.z = x < 60 || y < 45 ? 6.0f : sky, .r = 0.5f, .g = 0.4f, .b = 0.3f};
     });

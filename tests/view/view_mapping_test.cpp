@@ -10,7 +10,7 @@ namespace {
 
 constexpr double focal_px = 1400;
 
-// A pinhole camera, from first principles: axes right, up, forward; principal point and focal length in pixels.
+// A pinhole camera from first principles: axes right, up, forward; principal point and focal length in pixels.
 struct Pinhole {
     Imath::V3d place;
     double focal;
@@ -83,7 +83,7 @@ TEST_P(Mapping, IsWhereTheCentreSeesThePoint) {
     }
 }
 
-// What is infinitely far is moved by the framing alone.
+// Only the framing moves infinitely far points.
 TEST_P(Mapping, OfTheSkyIsThatOfDirections) {
     const Imath::V3d direction(0.1, -0.2, 1);
     Pinhole here = view;

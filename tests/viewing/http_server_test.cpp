@@ -25,7 +25,7 @@ public:
         address.sin_port = htons(std::uint16_t(port));
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         connected_ = ::connect(socket_, reinterpret_cast<const sockaddr *>(&address), sizeof address) == 0;
-        const timeval patience{20, 0}; // where a fault keeps the answer away
+        const timeval patience{20, 0}; // in case a fault delays the answer
         ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     }
     ~Client() { ::close(socket_); }
@@ -33,11 +33,11 @@ public:
     Client &operator=(const Client &) = delete;
 
     bool connected() const { return connected_; }
-    // Whether all of it was taken.
+    // Sends the text; whether all of it was taken.
     bool say(const std::string &text) const {
         return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == ssize_t(text.size());
     }
-    // What comes, up to these words; "" where the connection has ended, or nothing comes.
+    // Receives up to these words; "" if the connection has ended, or nothing comes.
     std::string hear(const std::string &last) const {
         std::string heard;
         char c = 0;
@@ -57,7 +57,7 @@ private:
 
 const std::string get = "GET /x?key=k HTTP/1.1\r\n\r\n";
 
-// Answers its path to those who know the key k.
+// A server that answers with its path if the request knows the key k.
 class Running {
 public:
     explicit Running(const HttpLimits &limits = {})

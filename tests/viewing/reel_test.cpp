@@ -23,12 +23,12 @@ ShotFrame frame_called(const std::string &path) {
     frame.packed.append(ldi);
     return frame;
 }
-// So many fit.
+// Memory for this many frames.
 std::uint64_t memory_of(double frames) {
     return std::uint64_t(frames * double(frame_called("any").packed.bytes()));
 }
 
-// What was read, in its order.
+// Records the files read, in order.
 class Files {
 public:
     Reel::Read reader(const std::string &bad = "") {
@@ -39,7 +39,7 @@ public:
             return frame_called(path);
         };
     }
-    // Waits for it; not for ever, where a fault keeps it away.
+    // Waits until `count` files were read, or for a limited time if a fault prevents it.
     std::string once(std::size_t count) const {
         for (int i = 0; i < 2000 && read().size() < count; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -83,7 +83,7 @@ TEST(Reel, HoldsNoMoreThanFits) {
     EXPECT_EQ(files.once(3), "abc");
     reel.at("b");
     EXPECT_EQ(files.once(4), "abcd");
-    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // more would be read now
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // any further read would happen now
     EXPECT_EQ(files.read(), "abcd");
     EXPECT_EQ(reel.held(), 3u);
     EXPECT_FALSE(reel.holds("a"));

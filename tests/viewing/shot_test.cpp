@@ -43,7 +43,7 @@ TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
     }
     ToolContext tool;
     tool.progress = std::make_unique<Progress>();
-    tool.max_memory = 100; // of frames beside the one that is shown
+    tool.max_memory = 100; // for frames besides the one shown
     Shot shot(drafts, tool);
     std::vector<std::weak_ptr<const ShotFrame>> frames;
     for (const GatherCommand &draft : drafts) {
@@ -55,7 +55,7 @@ TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
     EXPECT_FALSE(frames[2].expired());
 }
 
-// A lamp at the border, whose disc was cut off.
+// A lamp at the border with a cut-off disc.
 TEST(Shot, WarnsOfMissingOverscan) {
     const ScratchFolder folder;
     const std::string path = folder.file("a.exr");
@@ -120,7 +120,7 @@ TEST(SampleFacts, AreEmptyHoweverFarAwayThePixelIs) {
     ShotFrame frame = frame_of(ldi_of(std::vector<TestPixel>(64, {{2}})));
     frame.across = 16;
     const ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 3, .pixel_aspect = 1};
-    EXPECT_EQ(sample_facts(frame, lens, {1, 0}).size(), 0u); // its middle is beyond the one row
+    EXPECT_EQ(sample_facts(frame, lens, {1, 0}).size(), 0u); // its middle is outside the only row
     for (const int x : {1 << 28, 1 << 30, -(1 << 28)})
         EXPECT_EQ(sample_facts(frame, lens, {x, 0}).size(), 0u) << x;
     frame.across = 1;
@@ -141,7 +141,7 @@ TEST(LensGuess, IsOfWhatIsUnknownAlone) {
     Camera pinhole;
     pinhole.lens_radius = 0;
     EXPECT_EQ(lens_guess(frame, pinhole), Words());
-    Camera field; // 36 of 50 mm are not its field
+    Camera field; // 36 mm and 50 mm do not give its field
     field.field = 1;
     field.focus_distance = 7;
     EXPECT_EQ(lens_guess(frame, field), (Words{"--focal-length", "50", "--fstop", "2.8"}));

@@ -14,7 +14,7 @@ namespace {
 
 using Answer = std::future<std::optional<std::string>>;
 
-// A work that goes on until it is let go or nobody wants it any more; not for ever, where a fault keeps either away.
+// A work that runs until it is released or no longer wanted, or for a limited time if a fault prevents both.
 class Held {
 public:
     Answer begin(Studio &studio, const std::string &page, const std::string &answer) {
@@ -56,7 +56,7 @@ TEST(Studio, NewerWorkEndsWhatIsAtWork) {
     Answer old = held.begin(studio, "a", "old");
     EXPECT_EQ(studio.state("a")->stage, "holding");
     EXPECT_FALSE(studio.state("b"));
-    EXPECT_EQ(studio.make("a", at_once), "now"); // though nobody lets the old one go
+    EXPECT_EQ(studio.make("a", at_once), "now"); // although the old one is not released
     EXPECT_FALSE(old.get());
     EXPECT_EQ(studio.finished(), 1u);
 }
@@ -72,12 +72,12 @@ TEST(Studio, NewerWorkTakesThePlaceOfWhatWaits) {
     while (studio.waiting() == 0) std::this_thread::yield();
     for (int i = 0; i < 9; ++i) {
         Answer newer = move();
-        EXPECT_FALSE(last.get()); // once the newer one is there
+        EXPECT_FALSE(last.get()); // ended by the newer request
         last = std::move(newer);
     }
     EXPECT_EQ(studio.waiting(), 1u);
     held.free = true;
-    EXPECT_EQ(other.get(), "other"); // the page beside it keeps its own
+    EXPECT_EQ(other.get(), "other"); // the other page keeps its own request
     EXPECT_EQ(last.get(), "now");
     EXPECT_EQ(studio.finished(), 2u);
 }

@@ -18,7 +18,7 @@ ViewSample sample_at(double dx, double dy, double weight) {
     return s;
 }
 
-// The expected squared error of a mean by weights that sum to 1: its noise, and what the unknown gradient does.
+// The expected squared error of a mean with weights that sum to 1: from noise and from the unknown gradient.
 double error_of(const std::vector<ViewSample> &samples, const std::vector<double> &by) {
     double noise = 0, x = 0, y = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -45,7 +45,7 @@ TEST(Balance, OppositeOffsetsKeepTheirWeights) {
     EXPECT_NEAR(result[2].weight, 0.5, 1e-12);
 }
 
-// The slow and obvious way: no other weights have less error.
+// Slow and simple: no other weights have less error.
 TEST(Balance, NoOtherWeightsHaveLessError) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> offset(-0.4, 0.4), weight(0.2, 1), change(-0.1, 0.1);
@@ -54,7 +54,7 @@ TEST(Balance, NoOtherWeightsHaveLessError) {
         for (int k = 0; k < 1 + round % 4; ++k)
             samples.push_back(sample_at(offset(random), offset(random), weight(random)));
         const auto result = balanced(samples);
-        bool bounded = false; // where a weight would be negative, others are best
+        bool bounded = false; // if a weight would be negative, others are best
         for (std::size_t i = 0; i < samples.size(); ++i)
             bounded = bounded || result[i].weight <= 0.011 * samples[i].weight;
         if (bounded) continue;
@@ -71,8 +71,8 @@ TEST(Balance, NoOtherWeightsHaveLessError) {
     }
 }
 
-// A wall whose perceptive depths puts the rim views' pixels 0.3 px off, one to the right and one to the left. Of the second,
-// the left half was not rendered: there the mean of the others would stand 0.11 px off.
+// A wall at a perceptive depth that puts the rim views' pixels 0.3 px off, one to the right and one to the left. In the
+// second view the left half was not rendered: there the mean of the others would be 0.11 px off.
 TEST(Balance, AViewRenderedInPartMovesNothing) {
     TwoPlanes wall;
     wall.back_z = 100 / 3.3;
@@ -99,7 +99,7 @@ TEST(Balance, AViewRenderedInPartMovesNothing) {
     EXPECT_LT(0.3 * of_rim / (1 + of_rim), plain / 3);
 }
 
-// Where nothing is missing, a surface that only some views see is averaged as it always was.
+// If nothing is missing, a surface seen by only some views is averaged as usual.
 TEST(Balance, WhatIsHiddenIsNotMissing) {
     TwoPlanes scene;
     scene.front_covers = [](double x, double) { return x >= 20 && x < 40; };
@@ -111,7 +111,7 @@ TEST(Balance, WhatIsHiddenIsNotMissing) {
     wall.x = 45; // the rim view has the front plane, 10 px to the left of where the centre has it, elsewhere
     wall.y = 4;
     EXPECT_FALSE(some_view_is_missing(reprojected, std::vector{wall}));
-    wall.x = 1; // the rim view would have it two pixels to the left of its frame's edge
+    wall.x = 1; // two pixels to the left of the rim view's frame
     EXPECT_FALSE(some_view_is_missing(reprojected, std::vector{wall}));
 }
 

@@ -1,4 +1,4 @@
-// Deep views in the warp, alone, beside flat ones, at the centre and on the rim; answers in closed form.
+// Deep views in the warp: alone, beside flat ones, at the centre and on the rim; results in closed form.
 #include "deep/packed_view.h"
 #include "deep/tidy.h"
 #include "support/ldi_samples.h"
@@ -80,7 +80,8 @@ TEST(DeepViews, OfOneSampleAPixelAreFlatViews) {
     }
 }
 
-// Two cards of half coverage before a wall. Their perceptive depths are 3, 2 and 1 pixels: samples fall on middles of pixels.
+// Two cards of half coverage before a wall. Their perceptive depths are 3, 2 and 1 pixels, so that samples fall on
+// pixel centres.
 std::vector<Sample> two_cards(float second = 0.5f, float green = 1) {
     return {{.z = 2, .values = {0.5f, 0, 0, 0.5f}},
             {.z = 3, .values = {0, second * green, 0, second}},
@@ -97,7 +98,7 @@ TEST(DeepViews, TwoCardsAreSeenThroughBesideFlatViews) {
         }));
     const Ldi ldi = warped_of(std::move(views));
     const Ldi expected = constant(windows, two_cards());
-    for_each_pixel(ldi.windows.data, [&](int x, int y) { // beyond the frame they go on
+    for_each_pixel(ldi.windows.data, [&](int x, int y) { // beyond the frame they continue
         const SampleRange samples = ldi.pixel(ldi.windows.index(x, y));
         ASSERT_EQ(samples.size(), 3u) << x << "," << y;
         for (std::size_t n = 0; n < 3; ++n) {
@@ -108,7 +109,8 @@ TEST(DeepViews, TwoCardsAreSeenThroughBesideFlatViews) {
     });
 }
 
-// The light of all views of a card, for what they cover of it, by how much the card before it lets through: a half everywhere.
+// The light of a card in all views, relative to its coverage and to the share that the card before it lets through:
+// half everywhere.
 TEST(DeepViews, TheCentreKeepsItsCoverageAndColoursAreMeans) {
     const Windows windows = windows_of_size(24, 24);
     const std::array<float, 5> covers{0.5f, 0.25f, 0.75f, 0.5f, 1}, green{1, 0, 0.5f, 0.25f, 1};
@@ -130,7 +132,7 @@ TEST(DeepViews, TheCentreKeepsItsCoverageAndColoursAreMeans) {
     EXPECT_NEAR(ldi.weight[card], 5 * 0.5, 1e-6);
 }
 
-// Red by AR, green by AG; ids are the centre's.
+// Coverage for red in AR, for green in AG; ids come from the centre view.
 TEST(DeepViews, CoverageByColourAndIdsStay) {
     const std::vector<Channel> channels{{"R"},  {"G"},  {"B"},  {"A"},
                                         {"AR"}, {"AG"}, {"AB"}, {"id", PixelType::uint32}};
@@ -152,7 +154,7 @@ TEST(DeepViews, CoverageByColourAndIdsStay) {
         EXPECT_NEAR(ldi.values[k][samples.from], expected[k], 1e-6) << channels[k].name;
 }
 
-// Volumes keep both depths, and those that only a rim view sees, too.
+// Volumes keep both depths, even those that only a rim view sees.
 TEST(DeepViews, VolumesStayVolumes) {
     const Windows windows = windows_of_size(40, 3);
     const std::vector<Sample> volume{{.z = 6, .values = {0.5f, 0, 0, 0.5f}, .z_back = 6.1f}};
@@ -174,8 +176,8 @@ TEST(DeepViews, VolumesStayVolumes) {
     }
 }
 
-// Behind a board, which the centre view does not look past, a rim view sees two veils of one surface and nothing behind them: one
-// sample, of both composited.
+// Behind a board, past which the centre view does not look, a rim view sees two veils of one surface and nothing behind
+// them: one sample, composited from both.
 TEST(DeepViews, VeilsThatOnlyTheRimSeesAreComposited) {
     const Windows windows = windows_of_size(40, 3);
     const std::vector<Sample> veils{{.z = 6, .values = {0.5f, 0, 0, 0.5f}},
@@ -200,7 +202,8 @@ TEST(DeepViews, VeilsThatOnlyTheRimSeesAreComposited) {
     EXPECT_EQ(pixel_at(ldi, 15, 1).size(), 1u) << "no view looks there";
 }
 
-// What a rim view shows in front of all that the deep centre sees through, or between, only rounding brought there.
+// Samples of a rim view in front of everything that the deep centre sees through, or between, are there only by
+// rounding.
 TEST(DeepViews, TheCentreSeesAllThatStandsBeforeItsWall) {
     const Windows windows = windows_of_size(24, 24);
     std::vector<Sample> with_another = two_cards();

@@ -1,4 +1,4 @@
-// Views whose frusta are shifted, of another focal length, or that stand before or behind the lens, warped.
+// Warping views with shifted frusta, other focal lengths, or cameras in front of or behind the lens.
 #include "deep/checks/pose_check.h"
 #include "deep/view_samples.h"
 #include "support/ldi_samples.h"
@@ -31,7 +31,8 @@ Ldi warped(const std::vector<View> &views, Merge merge) {
     return warp(views, {.focal_px = focal_px, .radius = radius, .merge = merge}, silent);
 }
 
-// Stripes before a wall. Colours are linear in the place, so that means of samples show what lies at their mean place.
+// Stripes before a wall. Colours are linear in position, so that the mean of samples shows the colour at their mean
+// position.
 float stripes(double x, double y) { return float(0.2 + 0.005 * x + 0.003 * y); }
 float wall(double x, double y) { return float(0.3 + 0.004 * x - 0.002 * y); }
 TwoPlanes scene() {
@@ -50,7 +51,7 @@ std::vector<View> views_of(const std::array<Framing, 4> &framings) {
 }
 
 const std::array<Framing, 4> no_framings{};
-// As a lens would shift to converge at z = 5, which moves every pixel by F X / 5.
+// The shifts of a lens that converge at z = 5, which move every pixel by F X / 5.
 const std::array<Framing, 4> converging{{{.principal_point = {-0.01875, 0}},
                                          {.principal_point = {0, 0.01875}},
                                          {.principal_point = {0.01875, 0}},
@@ -60,7 +61,7 @@ const std::array<Framing, 4> any_framings{{{0.02, 1.03, {0.013, -0.021}},
                                            {0, 1.05, {-0.05, 0}},
                                            {0.01, 1, {0.03, 0.02}}}};
 
-// A plane seen through any frustum lands where its points are.
+// A plane seen through any frustum lands at the positions of its points.
 TEST(Framings, APlaneLandsWhereItIs) {
     for (const auto &framings : {no_framings, converging, any_framings})
         for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -75,7 +76,7 @@ TEST(Framings, APlaneLandsWhereItIs) {
             ASSERT_EQ(samples.size(), picture.pixels());
             for (const ReprojectedSample &s : samples) {
                 const Imath::V2d q(s.source % width + 0.5, s.source / width + 0.5);
-                // The ray of q, from the view's camera to the plane; then the centre's picture of that point.
+                // The ray of q from the view's camera to the plane; then the point's position in the centre's picture.
                 const double focal = focal_px * framing.zoom, depth = z - framing.forward;
                 const double x =
                     positions[k].x + (q.x - width * (0.5 + framing.principal_point.x)) / focal * depth;
@@ -128,7 +129,7 @@ TEST(Framings, TheSameRaysGiveTheSameLdi) {
     }
 }
 
-// visit(place, z, coverage, red, green) for the samples in the centre view's picture, away from its borders.
+// visit(position, z, coverage, red, green) for the samples in the centre view's picture, away from its borders.
 template <typename Visit>
 void for_each_sample(const Ldi &ldi, const Visit &visit) {
     const Imath::Box2i &data = ldi.windows.data;
@@ -142,7 +143,7 @@ void for_each_sample(const Ldi &ldi, const Visit &visit) {
         }
 }
 
-// Every sample shows what lies at its place, and as much of the hidden wall appears as the views see of it.
+// Every sample shows the colour at its position, and the LDI has as much of the hidden wall as the views see.
 TEST(Framings, EverySampleShowsWhatLiesThere) {
     const auto hidden_wall = [&](const std::array<Framing, 4> &framings) {
         double hidden = 0;
@@ -157,13 +158,14 @@ TEST(Framings, EverySampleShowsWhatLiesThere) {
                         });
         return hidden;
     };
-    // 3 stripes of 24 rows, from both sides seen behind by F R (1/2 - 1/10) pixels, to the nearest half pixel or so.
+    // 3 stripes of 24 rows; the views look behind them from both sides by F R (1/2 - 1/10) pixels, to about the nearest
+    // half pixel.
     const double truth = 3 * 24 * 2 * focal_px * radius * 0.4;
     for (const auto &framings : {no_framings, converging, any_framings})
         EXPECT_NEAR(hidden_wall(framings), truth, 0.2 * truth);
 }
 
-// Behind the centre view's camera nothing is seen by it.
+// The centre view sees nothing behind its camera.
 TEST(Framings, WhatLiesBehindTheCentreIsLeftOut) {
     std::vector<View> views = views_of(no_framings);
     const std::size_t before = warped({views[0]}, Merge::average).samples();
@@ -174,7 +176,7 @@ TEST(Framings, WhatLiesBehindTheCentreIsLeftOut) {
     EXPECT_FALSE(better_position(views[0], behind, focal_px));
 }
 
-// Where a view stands is judged with its framing.
+// A view's position is checked with its framing.
 TEST(Framings, AViewInItsPlaceIsNotComplainedOf) {
     for (const auto &framings : {converging, any_framings}) {
         const std::vector<View> views = views_of(framings);
@@ -182,7 +184,7 @@ TEST(Framings, AViewInItsPlaceIsNotComplainedOf) {
             EXPECT_FALSE(better_position(views[0], views[k], focal_px)) << k;
             View wrong = views[k];
             wrong.position = -wrong.position;
-            if (wrong.position.x == 0) continue; // stripes hardly tell up from down
+            if (wrong.position.x == 0) continue; // stripes hardly distinguish up from down
             const auto better = better_position(views[0], wrong, focal_px);
             ASSERT_TRUE(better) << k;
             EXPECT_LT((*better - views[k].position).length(), 1e-9) << k;

@@ -1,4 +1,4 @@
-// Where a surface is near, a smaller picture says first which depths are worth a try: what that finds, against trying all.
+// For near surfaces, a smaller picture first selects which depths to try: its results compared with trying all.
 #include "support/views.h"
 #include "warp/images/image_search.h"
 #include "warp/images/neighbours.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr double focal_px = 200, radius = 0.12, scale = focal_px * radius;
 const Windows window = windows_of_size(200, 120);
 
-// No two places are alike.
+// All positions differ.
 float blotches(double x, double y) {
     double sum = 0;
     for (int n = 0; n < 6; ++n)
@@ -25,7 +25,7 @@ float blotches(double x, double y) {
     return float(0.5 + 0.08 * sum);
 }
 
-// A wall near the camera on which each camera sees what lies at depth `image_z`.
+// A wall near the camera on which each camera sees a texture at depth `image_z`.
 struct Mirror {
     Mirror(double wall_z, double image_z) {
         const double moves = focal_px * (1 / wall_z - 1 / image_z);
@@ -95,7 +95,7 @@ TEST(ImageSearch, WhereTheSmallerPictureShowsNothingNoDepthIsTried) {
     EXPECT_EQ(found(near_by, std::vector{12.4f}), 64);
     EXPECT_EQ(found(near_by, std::vector{30.0f}), 0);
     EXPECT_EQ(found(near_by, std::vector<float>()), 0);
-    EXPECT_EQ(found(far_off, std::vector<float>()), 64); // it has few depths
+    EXPECT_EQ(found(far_off, std::vector<float>()), 64); // it has few depths to try
 }
 
 TEST(ImageSearch, GuessesAreOfThePixelsAround) {

@@ -1,4 +1,4 @@
-// Walls that are mirrors: what they show lies at another depth than they do, which the views tell.
+// Walls that are mirrors: the views show that their images are at another depth than the walls.
 #include "support/views.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
@@ -25,13 +25,13 @@ float waves(double x, double y) {
 }
 float grey(double, double) { return 0.5f; }
 
-// A wall on which each camera sees a texture that lies at depth `image_z`.
+// A wall on which each camera sees a texture at depth `image_z`.
 std::vector<View> mirror(double image_z, const Texture &texture = waves, float noise = 0) {
     std::vector<View> views;
     for (const Imath::V2d &u :
          {Imath::V2d(0, 0), Imath::V2d(1, 0), Imath::V2d(0, 1), Imath::V2d(-1, 0), Imath::V2d(0, -1)}) {
         const Imath::V2d camera = radius * u;
-        // On the wall the image moves by what its depth gives less than the wall's.
+        // On the wall the image moves by the difference of the parallaxes of both depths.
         const double moves = focal_px * (1 / wall_z - 1 / image_z);
         TwoPlanes scene{.focal_px = focal_px};
         scene.front_z = wall_z;
@@ -51,8 +51,8 @@ Ldi warped(const std::vector<View> &views, bool find_images = true, int across =
                 silent);
 }
 
-// Of the centre view's pixels but for the outermost, the shares whose front sample has an image, and one that lies within
-// so much perceptive depth, pixels, of where it should.
+// For the centre view's pixels except the outermost: the share whose front sample has an image, and the share whose
+// image is within this perceptive depth, in pixels, of the right one.
 struct Shares {
     double found = 0, right = 0;
 };
@@ -71,7 +71,8 @@ Shares shares(const Ldi &ldi, double image_z, double within) {
     return {shares.found / pixels, shares.right / pixels};
 }
 
-// Of 5 x 5 blocks, row by row, C for those that differ clearly and s for slightly: x for those that are searched.
+// Marks of 5 x 5 blocks, row by row: C for clearly different, s for slightly different. Returns x for blocks that are
+// searched.
 std::string searched(const std::string &marks) {
     const Imath::Box2i data({0, 0}, {5 * image_block - 1, 5 * image_block - 1});
     std::vector<Disagreement> differ;
@@ -107,7 +108,8 @@ TEST(Images, SurfacesHaveNone) {
     EXPECT_TRUE(warped(mirror(6), false).optical.empty());
 }
 
-// An image 0.4 pixels of perceptive depth behind the mirror is worth it where two of them are a pixel of the picture, not four.
+// An image 0.4 pixels of perceptive depth behind the mirror is searched if two of these pixels make a pixel of the
+// picture, but not if four do.
 TEST(Images, ThatMoveByLessThanAQuarterOfThePicturesPixelAreNotLookedFor) {
     const auto found = [](double moves, int across) {
         const double image_z = scale / (scale / wall_z - moves);
@@ -128,7 +130,7 @@ TEST(Images, NoiseMakesDepthsCoarserNotFalse) {
     EXPECT_GT(found.right, 0.8);
 }
 
-// Averaging at the depth of the image takes away noise and keeps the texture.
+// Averaging at the depth of the image reduces noise and keeps the texture.
 TEST(Images, ViewsAreAveragedWhereTheyAgree) {
     constexpr float noise = 0.1f;
     const auto error = [&](const Ldi &ldi) {

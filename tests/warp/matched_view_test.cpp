@@ -13,7 +13,7 @@ namespace {
 
 constexpr double scale = 24;
 
-// More than two tiles wide, at odd coordinates. Depths are those of two surfaces; some pixels show nothing.
+// More than two tiles wide, at odd coordinates. Depths are of two surfaces; some pixels are empty.
 View some_view() {
     Windows windows = windows_of_size(300, 250);
     windows.data = {{-5, 3}, {240, 193}};
@@ -25,7 +25,7 @@ View some_view() {
     return view;
 }
 
-// Slowly and obviously: the mean by 1, 2, 1 along both axes of tone-mapped colours.
+// Slow and simple: the mean with weights 1, 2, 1 along both axes of tone-mapped colours.
 float smoothed(const Ldi &ldi, std::size_t channel, int x, int y) {
     const Imath::Box2i &data = ldi.windows.data;
     float sum = 0;
@@ -77,14 +77,15 @@ TEST(MatchedView, WhatIsForgottenIsMadeAgain) {
     EXPECT_EQ(view.bytes(), 0u);
     const MatchedView::Pixel before = view.at(at.x, at.y);
     EXPECT_GT(view.bytes(), 0u);
-    view.forget_unused(); // which was used since it was made
+    view.forget_unused(); // it was used since it was made
     EXPECT_GT(view.bytes(), 0u);
     view.forget_unused();
     EXPECT_EQ(view.bytes(), 0u);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(view.at(at.x, at.y)[k], before[k]);
 }
 
-// Slowly: the mean of those of 2 x 2 pixels that the view has, repeated beyond its border, by 1, 2, 1 along both axes.
+// Slow: the mean of the pixels that exist among 2 x 2, repeated beyond the border, with weights 1, 2, 1 along both
+// axes.
 TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
     const View picture = some_view();
     const ViewSamples samples(picture, picture.image.channels);
@@ -128,7 +129,7 @@ TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
     EXPECT_NE(at, from);
 }
 
-// Also where tiles meet.
+// Also at borders between tiles.
 TEST(MatchedView, BetweenPixelsItIsLinear) {
     const View picture = some_view();
     const ViewSamples samples(picture, picture.image.channels);

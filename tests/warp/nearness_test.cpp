@@ -7,7 +7,7 @@
 namespace sparselens {
 namespace {
 
-// By the library's exp(); each of the two rounds a few times.
+// Compared with the library's exp(); each of the two rounds a few times.
 TEST(Nearness, IsAGaussian) {
     for (double dx = -0.5; dx <= 0.5; dx += 1.0 / 64)
         for (double dy = -0.5; dy <= 0.5; dy += 1.0 / 64) {

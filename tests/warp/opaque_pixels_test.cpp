@@ -1,4 +1,4 @@
-// What is opaque in the views lets no light through in the LDI, nor through a lens; what is not, does.
+// Opaque parts of the views pass no light in the LDI or through a lens; other parts do.
 #include "deep/flatten.h"
 #include "dof/methods.h"
 #include "lens/lens_samples.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace warping;
 
-constexpr double tolerance = 0.05; // of 1 / z: 2, 4 and 10 are different surfaces
+constexpr double tolerance = 0.05; // in 1 / z: 2, 4 and 10 are different surfaces
 
 ViewPixel red_at_2(int, int) { return {.z = 2, .r = 0.8f}; }
 ViewPixel green_at_10(int, int) { return {.z = 10, .g = 0.6f}; }
@@ -24,7 +24,7 @@ ViewPixel half_red_at_2(int, int) { return {.z = 2, .r = 0.4f, .a = 0.5f}; }
 
 using Pixels = ViewPixel (*)(int, int);
 
-// The middle pixel of an LDI that holds these samples, 6 pixels wider on each side than its views, which all stand at the
+// The middle pixel of an LDI with these samples, 6 pixels wider on each side than its views, which are all at the
 // middle of the lens and show the same in every pixel.
 TestPixel kept_opaque(const TestPixel &samples, const std::vector<Pixels> &pixels, int x = 2) {
     std::vector<View> views;
@@ -61,7 +61,7 @@ TEST(OpaquePixels, ASurfaceThatAllViewsSeeKeepsItsColour) {
     }
 }
 
-// Three of four look past it: it does not grow, and what they see fills it up.
+// Three of four views look past it: it does not grow, and the surface behind fills the pixel up.
 TEST(OpaquePixels, WhatIsSeenPastASurfaceFillsItUp) {
     for (const int x : {2, beyond_the_frame}) {
         const TestPixel pixel =
@@ -80,10 +80,10 @@ TEST(OpaquePixels, TheLastSampleAloneIsFilledUp) {
     EXPECT_EQ(pixel[0].alpha, 0.5f);
     EXPECT_EQ(pixel[0].colour, 0.1f);
     EXPECT_EQ(pixel[1].alpha, 1);
-    EXPECT_FLOAT_EQ(pixel[1].colour, 0.4f); // nobody sees past it
+    EXPECT_FLOAT_EQ(pixel[1].colour, 0.4f); // no view looks past it
 }
 
-// It covers what the vote of the views gave it: nothing is seen through it as long as something opaque lies in front.
+// It keeps the coverage from the views' vote: nothing shows through it while something opaque is in front.
 TEST(OpaquePixels, WhatLiesBehindSomethingOpaqueStays) {
     const TestPixel pixel =
         kept_opaque({{.z = 2, .colour = 0.8f, .alpha = 1}, {.z = 4, .colour = 0.2f, .alpha = 0.5f}},
@@ -92,8 +92,8 @@ TEST(OpaquePixels, WhatLiesBehindSomethingOpaqueStays) {
     EXPECT_EQ(pixel[1].colour, 0.2f);
 }
 
-// In the frame the centre view has to say that a pixel is opaque; in it and beyond, what the rim views look through stays
-// open.
+// Inside the frame the centre view decides whether a pixel is opaque. Inside and beyond, pixels that rim views look
+// through stay open.
 TEST(OpaquePixels, WhatIsTransparentInTheViewsStays) {
     const TestPixel half{{.z = 2, .colour = 0.4f, .alpha = 0.5f}};
     const auto alpha = [&](const std::vector<Pixels> &views, int x) {
@@ -104,7 +104,7 @@ TEST(OpaquePixels, WhatIsTransparentInTheViewsStays) {
     EXPECT_FLOAT_EQ(alpha({red_at_2, half_red_at_2, green_at_10, red_at_2}, 2), 0.5f + 0.5f * 2 / 3);
     EXPECT_EQ(alpha({red_at_2, half_red_at_2, red_at_2}, beyond_the_frame), 0.5f);
     EXPECT_EQ(alpha({half_red_at_2, red_at_2, red_at_2}, beyond_the_frame), 1);
-    EXPECT_EQ(alpha({red_at_2}, beyond_the_frame), 0.5f); // nobody looks there
+    EXPECT_EQ(alpha({red_at_2}, beyond_the_frame), 0.5f); // no view looks there
 }
 
 } // namespace

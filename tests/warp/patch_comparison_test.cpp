@@ -1,4 +1,4 @@
-// Blocks of a view in comparison with another one, against the same pixel by pixel.
+// Comparison of blocks of two views, checked pixel by pixel.
 #include "base/random.h"
 #include "support/views.h"
 #include "warp/images/patch_comparison.h"
@@ -41,7 +41,7 @@ struct Pair {
     MatchedView centre, view;
 };
 
-// The mean over the patch around p of what can be compared.
+// The mean over the patch around p of the comparable pixels.
 float slowly(const Pair &pair, const Imath::V2i &p, float surface, double depth) {
     double sum = 0;
     int count = 0;
@@ -60,7 +60,7 @@ float slowly(const Pair &pair, const Imath::V2i &p, float surface, double depth)
     return count >= 0.4 * 49 ? float(sum / count) : std::numeric_limits<float>::quiet_NaN();
 }
 
-// Also where blocks leave the picture, or what the view shows of them does.
+// Includes blocks that leave the picture, or whose counterparts do.
 TEST(PatchComparison, BlocksAreAsPixelByPixel) {
     const Pair pair;
     constexpr float surface = 8;
@@ -103,7 +103,7 @@ TEST(RobustMeans, AreOfTheBestThreeQuarters) {
 }
 
 TEST(RobustMeans, OfPixelsAreThoseOfEach) {
-    const std::vector<float> views{4, 5, 1, 6, 3, 7, 2, 9}; // of two pixels, view by view
+    const std::vector<float> views{4, 5, 1, 6, 3, 7, 2, 9}; // for two pixels, view by view
     EXPECT_EQ(robust_means(views, 2), (std::vector{mean_of({4, 1, 3, 2}), mean_of({5, 6, 7, 9})}));
 }
 

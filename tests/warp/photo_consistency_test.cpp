@@ -15,7 +15,7 @@ const Windows window = windows_of_size(64, 16);
 
 using Colour = std::function<float(double x, double y)>;
 
-// A wall at that depth, on which each view sees colours of its own.
+// A wall at that depth on which each view sees its own colours.
 std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &colour_for, float noise = 0,
                        double z = 2.2) {
     std::vector<View> views;
@@ -59,7 +59,8 @@ TEST(PhotoConsistency, OneTextureSeenByAll) {
               1);
 }
 
-// An edge between two pixels stays there, though each view is shifted by a part of a pixel: it may seem to move slightly.
+// An edge between two pixels stays in place, although each view is shifted by part of a pixel and it may seem to move
+// slightly.
 TEST(PhotoConsistency, SharpEdgesOfTextureDoNotMove) {
     const auto edges = [](auto) {
         return [](double x, double) { return std::fmod(x + 100, 8) < 4 ? 0.7f : 0.2f; };
@@ -69,7 +70,7 @@ TEST(PhotoConsistency, SharpEdgesOfTextureDoNotMove) {
 }
 
 TEST(PhotoConsistency, ImagesThatMoveByAPixelDiffer) {
-    const auto image = [](const Imath::V2d &camera) { // of perceptive depth one pixel off
+    const auto image = [](const Imath::V2d &camera) { // one pixel of perceptive depth off
         return [camera](double x, double) {
             return float(0.5 + 0.4 * std::sin(0.2 * x + 0.2 * camera.x / radius));
         };
@@ -92,7 +93,7 @@ TEST(PhotoConsistency, NoiseIsNoDisagreement) {
     for (const float noise : {0.01f, 0.1f, 0.5f}) EXPECT_EQ(agreement(wall(grey, noise)), 1) << noise;
 }
 
-// Another colour, or the same picture somewhere else.
+// Another colour, or the same picture at another position.
 TEST(PhotoConsistency, ReflectionsAreDisagreement) {
     const auto other_colour = [](const Imath::V2d &camera) {
         return [camera](double, double) { return camera.x == 0 && camera.y == 0 ? 0.2f : 0.8f; };
@@ -105,7 +106,7 @@ TEST(PhotoConsistency, ReflectionsAreDisagreement) {
     EXPECT_EQ(agreement(wall(reflection)), 0);
 }
 
-// The lens itself averages what comes from one point in all directions.
+// The lens itself averages the light of one point over all directions.
 TEST(PhotoConsistency, InFocusAllDirectionsCount) {
     const auto views = wall([](const Imath::V2d &camera) {
         return [camera](double, double) { return float(0.5 + 4 * camera.x); };

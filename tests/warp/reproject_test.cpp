@@ -13,7 +13,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// A picture of 21 x 21 pixels, F = 100, empty but for pixel (10, 10) at depth z.
+// A picture of 21 x 21 pixels, F = 100, empty except pixel (10, 10) at depth z.
 std::vector<ReprojectedSample> reprojected(float z, const Imath::V2d &position, float pixel_aspect = 1) {
     Windows w = windows_of_size(21, 21);
     w.pixel_aspect = pixel_aspect;
@@ -34,7 +34,7 @@ void expect_at(const std::vector<ReprojectedSample> &samples, double x, double y
     EXPECT_EQ(samples[0].source, 10u * 21 + 10);
 }
 
-// What a camera to the right sees straight ahead, lies to the right for the centre; up is up, y counts down.
+// A point straight ahead of a camera on the right is on the right for the centre. Up is up, while y counts down.
 TEST(Reprojection, PointsLieWhereTheCameraStands) {
     expect_at(reprojected(4, {0.13, 0}), 10.5 + 3.25, 10.5);
     expect_at(reprojected(4, {-0.13, 0}), 10.5 - 3.25, 10.5);
@@ -63,9 +63,9 @@ TEST(Reprojection, WhatIsInfinitelyFarStays) {
 }
 
 TEST(Reprojection, TheNearestMayLeaveThePicture) {
-    EXPECT_TRUE(reprojected(1e-3f, {0, 1}).empty());          // out of the rows that were asked for
+    EXPECT_TRUE(reprojected(1e-3f, {0, 1}).empty());          // outside the requested rows
     EXPECT_TRUE(reprojected(1e-30f, {1e10, 0}).empty());      // beyond any coordinate
-    EXPECT_EQ(reprojected(1e-3f, {1, 0})[0].x, 10 + 100'000); // for the caller to cut
+    EXPECT_EQ(reprojected(1e-3f, {1, 0})[0].x, 10 + 100'000); // the caller cuts it
 }
 
 TEST(Reprojection, ReachIsWhereSamplesFall) {
@@ -81,7 +81,7 @@ TEST(Reprojection, ReachIsWhereSamplesFall) {
     EXPECT_EQ(reach({0.13, 0}, 4), Imath::Box2i({0, 0}, {23, 10})); // 3.25 px to the right
     EXPECT_EQ(reach({-0.15, 0}, 4), Imath::Box2i({-4, 0}, {20, 10}));
     EXPECT_EQ(reach({0, 0.15}, 4), Imath::Box2i({0, -4}, {20, 10}));
-    // What is not visible does not count, whatever its depth.
+    // Invisible pixels do not count, whatever their depth.
     for (const float empty_z : {0.0f, 1e-6f, -1.0f, std::nanf("")})
         EXPECT_EQ(reach({0.13, 0.13}, 4, empty_z), reach({0.13, 0.13}, 4)) << empty_z;
 }
@@ -99,7 +99,7 @@ TEST(Reprojection, NoSampleFallsOutsideTheReach) {
     }
 }
 
-// Every sample falls in exactly one band of rows, and in the order of the source.
+// Every sample falls into exactly one band of rows, in the order of the source.
 TEST(Reprojection, BandsShareTheSamples) {
     const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07), Imath::V2d(0, 0)}) {

@@ -31,8 +31,8 @@ void expect_flattens_to(const View &view, const Ldi &ldi) {
     }
 }
 
-// A vertical edge inside column 8: left of it red at depth 2, right of it green at depth `far_z`. The column itself
-// shows `share` of red, under the depth of what covers its centre.
+// A vertical edge inside column 8: red at depth 2 to the left, green at depth `far_z` to the right. The column itself
+// shows `share` of red, with the depth of the surface at its centre.
 View edge(float share, float far_z = 10) {
     return make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int) {
         const float red = x < 8 ? 1 : x == 8 ? share : 0;
@@ -55,7 +55,7 @@ TEST(Silhouettes, MixedPixelsAreTakenApart) {
                 EXPECT_FLOAT_EQ(ldi.z[behind], 10);
                 const float front_rgba[] = {share, 0, 0, share}, behind_rgba[] = {0, 1, 0, 1};
                 for (std::size_t k = 0; k < 4; ++k) {
-                    // Mixed pixels have a say in what the front shows, and "not mixed" one in the share.
+                    // Mixed pixels influence the front's colour, and "not mixed" influences the share.
                     EXPECT_NEAR(ldi.values[k][front], front_rgba[k], 0.05);
                     EXPECT_NEAR(ldi.values[k][behind], behind_rgba[k], 1e-6);
                 }
@@ -79,7 +79,7 @@ TEST(Silhouettes, PixelsOfOneSurfaceAreLeftAlone) {
     const View slope = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int y) {
         return ViewPixel{.z = 5 + 0.1f * float(x), .r = float(x % 2), .g = float(y % 2)};
     });
-    EXPECT_EQ(separated(slope).samples(), 16u * 9); // no jump, whatever the colours
+    EXPECT_EQ(separated(slope).samples(), 16u * 9); // no depth step, whatever the colours
 }
 
 TEST(Silhouettes, TheJumpSaysWhatPartsSurfaces) {
@@ -87,7 +87,7 @@ TEST(Silhouettes, TheJumpSaysWhatPartsSurfaces) {
     EXPECT_EQ(separated(edge(0.4f), 8.1).samples(), 16u * 9);
 }
 
-// Where front and back look alike nothing can be told; where a colour is on neither side of them, neither.
+// Where front and back have the same colour, or a colour is outside their range, nothing is separated.
 TEST(Silhouettes, WhatCannotBeToldIsLeftAlone) {
     const View grey = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
         return ViewPixel{.z = x < 8 ? 2.0f : 10.0f, .r = 0.5f, .g = 0.5f, .b = 0.5f};
@@ -98,8 +98,8 @@ TEST(Silhouettes, WhatCannotBeToldIsLeftAlone) {
     EXPECT_EQ(separated(odd).samples(), 16u * 9);
 }
 
-// Behind the post that ends inside column 8 stands a lamp of columns 8 and 9 in rows 3 to 5, and else a grey wall. Its
-// light is in the post's pixels too, and the mean of what is clear of the post knows nothing of it.
+// Behind the post that ends inside column 8 there is a lamp in columns 8 and 9 of rows 3 to 5, and a grey wall
+// elsewhere. The post's pixels contain the lamp's light too, but the mean of the pixels clear of the post does not.
 TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
     const float lamp = 500, share = 0.6f;
     const View view = make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int y) {
@@ -114,13 +114,13 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
         const std::uint64_t front = samples.front();
         ASSERT_EQ(samples.size(), 2u) << y;
         EXPECT_FLOAT_EQ(ldi.values[0][front + 1], lamp);
-        EXPECT_NEAR(ldi.values[3][front], share, 0.04); // the lamp has a say in what the post shows
+        EXPECT_NEAR(ldi.values[3][front], share, 0.04); // the lamp influences the post's colour
         EXPECT_LT(ldi.values[0][front], 0.04f * lamp);
     }
 }
 
-// Left a post, right a board with a lamp behind its lower edge, whose last row is half lamp: what the board shows behind the
-// post's edge is the board, not the lamp at the board's depth.
+// A post on the left, and on the right a board with a lamp behind its lower edge, whose last row is half lamp: behind
+// the post's edge the board shows its own colour, not the lamp at the board's depth.
 TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
     const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int y) {
         if (x < 7) return ViewPixel{.z = 2, .r = 0.1f, .g = 0.1f};
@@ -136,11 +136,11 @@ TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
         ASSERT_EQ(pixel.size(), 2u) << y;
         const std::uint64_t board = pixel.front() + 1;
         EXPECT_FLOAT_EQ(ldi.z[board], 4) << y;
-        EXPECT_LT(ldi.values[0][board], 1.0f) << y; // 5 where all pixels tell the same
+        EXPECT_LT(ldi.values[0][board], 1.0f) << y; // 5 if all pixels counted equally
     }
 }
 
-// A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
+// In a lamp of three by three pixels one pixel is pure; the mixed colours of its edges are not its colour.
 TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     const auto share = [](int x, int y) {
         const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
@@ -180,7 +180,7 @@ TEST(Silhouettes, FlattenedEveryPictureIsWhatItWas) {
     }
 }
 
-// Negative colours and what is no number: no such pixel makes another one bad.
+// Negative colours and NaNs: no such pixel spoils another one.
 TEST(Silhouettes, BadPixelsStayOnePixel) {
     for (const float bad : {-1.0f, std::nanf(""), inf, -inf}) {
         View view = edge(0.4f);
@@ -208,7 +208,7 @@ TEST(Silhouettes, WithoutColourOrCoverageNothingHappens) {
     EXPECT_EQ(separated(view).samples(), 16u * 9);
 }
 
-// Views without empty pixels go a faster way: one empty pixel in a corner changes what is around it alone.
+// Views without empty pixels use a faster algorithm: one empty pixel in a corner changes only its surroundings.
 TEST(Silhouettes, AnEmptyPixelChangesWhatIsAroundItAlone) {
     const auto views_of = [](bool with_empty) {
         View view = random_view(windows_of_size(40, 30), {0, 0}, 11);

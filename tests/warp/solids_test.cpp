@@ -1,4 +1,4 @@
-// What views tell to be solid: planes whose gaps a view saw through, or none did.
+// Solids found from views: planes with gaps that a view saw through, or that none did.
 #include "dof/lens/lens_gather.h"
 #include "lens/lens_samples.h"
 #include "support/views.h"
@@ -15,15 +15,15 @@ constexpr double scale = 12; // R F
 constexpr WarpOptions options{.focal_px = 100, .radius = scale / 100};
 const Windows windows = windows_of_size(96, 96);
 
-// A plate, a board that begins `gap` pixels beyond its edge and goes on behind it, and a bright wall; edges run
-// diagonally, places are the centre's.
+// A plate; a board that begins `gap` pixels beyond the plate's edge and continues behind it; and a bright wall. Edges
+// are diagonal; positions are the centre's.
 struct Plates {
     double plate = 40, board = 36.8, wall = 10; // perceptive depths
-    double gap = -20, width = 24;               // of the board, pixels across both edges
+    double gap = -20, width = 24;               // of the board; pixels across both edges
 
-    // Which of them a lens point u sees at a pixel.
+    // The perceptive depth that lens point u sees at a pixel.
     double seen(const Imath::V2d &pixel, const Imath::V2d &u) const {
-        const auto across = [&](double depth) { // from the plate's edge, to the lower right
+        const auto across = [&](double depth) { // distance from the plate's edge, to the lower right
             const Imath::V2d at = pixel + depth * Imath::V2d(u.x, -u.y);
             return (at.x + at.y - 80) / std::sqrt(2.0);
         };
@@ -50,7 +50,7 @@ ThinLens lens_on(double depth) {
     return {.radius = options.radius, .focal_px = options.focal_px, .focus = scale / depth};
 }
 
-// How much green light the pixels have that are less than 6 pixels from the plate's edge.
+// The total green light in pixels less than 6 pixels from the plate's edge.
 double green_along_the_edge(const Plates &plates, const Ldi &ldi) {
     Progress silent;
     const Image image = lens_gather(ldi, lens_on(plates.plate), windows.data, {.lens_samples = 256}, silent);
@@ -67,7 +67,7 @@ double true_green_along_the_edge(const Plates &plates) {
     for (int y = 20; y < 76; ++y)
         for (int x = 20; x < 76; ++x)
             for (const LensSample &p : points) {
-                // Where this is in focus, a lens point at u sees a place of depth w at p + (w - plate) u.
+                // With the plate in focus, a lens point at u sees a point of depth w at p + (w - plate) u.
                 const Imath::V2d u(double(p.x), -double(p.y));
                 const Imath::V2d pixel(x + 0.5 - plates.plate * u.x, y + 0.5 + plates.plate * u.y);
                 if (std::abs(x + y + 1 - 80) < 6 && plates.seen(pixel, u) == plates.wall)
@@ -76,9 +76,9 @@ double true_green_along_the_edge(const Plates &plates) {
     return sum;
 }
 
-// The board goes on 20 pixels behind the plate, but no view sees more than 2.3 of these; along the diagonal the lens looks
-// 3.2 pixels behind the plate's edge, where views beside it saw the wall. Fillers, which come first where a lens point meets nothing,
-// may go on from the wall.
+// The board continues 20 pixels behind the plate, but no view sees more than 2.3 of these. Along the diagonal the lens
+// looks 3.2 pixels behind the plate's edge, where views beside it saw the wall. Fillers, which come first where a lens
+// point meets nothing, may continue the wall.
 TEST(Solids, NoLightComesThroughAGapThatNoViewSaw) {
     const Plates plates;
     Ldi ldi = plates.ldi();
@@ -88,11 +88,11 @@ TEST(Solids, NoLightComesThroughAGapThatNoViewSaw) {
     ldi.solid.clear();
     const double open = green_along_the_edge(plates, ldi);
     EXPECT_GT(open,
-              0.5); // half of what one pixel of the wall gives; the rest is closed as cracks of the board
+              0.5); // half the light of a wall pixel; the rest is closed as cracks of the board
     EXPECT_LT(solid, 0.1 * open);
 }
 
-// Where the board begins some pixels beyond the edge, the views see the wall through the gap, and so does the lens.
+// Where the board begins some pixels beyond the edge, the views and the lens see the wall through the gap.
 TEST(Solids, NothingOfAGapThatViewsSawIsLost) {
     Plates plates;
     for (const double gap : {3.0, 6.0}) {

@@ -8,9 +8,9 @@
 namespace sparselens {
 namespace {
 
-constexpr double focal_px = 100, tolerance = 0.05; // of 1 / z: 2 and 10 are two surfaces
+constexpr double focal_px = 100, tolerance = 0.05; // in 1 / z: 2 and 10 are two surfaces
 
-// A card at z = 2 before a wall at z = 10, seen by cameras as far off as given.
+// A card at z = 2 before a wall at z = 10, seen by cameras at these distances.
 class Views {
 public:
     Views(const TwoPlanes &scene, const std::vector<Imath::V2d> &cameras) {
@@ -31,26 +31,26 @@ TwoPlanes card_up_to(double right) {
     return scene;
 }
 
-// The cameras show pixel edges of the card where their pixels' centres fall, half a pixel apart here.
+// A camera sees the card's edge at pixel centres, half a pixel apart here.
 const std::vector<Imath::V2d> cameras{{0, 0}, {0.01, 0}, {0.02, 0}, {0.03, 0}, {0.04, 0}};
 
 TEST(VisibilityVote, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {
     const Views views(card_up_to(20), cameras);
     EXPECT_EQ(views.coverage(12, 5, 2), 1);
-    EXPECT_EQ(views.coverage(26, 5, 2), 0); // all look past it
+    EXPECT_EQ(views.coverage(26, 5, 2), 0); // all views look past it
     EXPECT_EQ(views.coverage(26, 5, 10), 1);
 }
 
-// What hides a place says nothing about it; nor does a view that does not reach it.
+// A view does not vote on a point that something hides, or that is outside its frame.
 TEST(VisibilityVote, WhoCannotTellDoesNotVote) {
     const Views views(card_up_to(20), cameras);
-    EXPECT_EQ(views.coverage(5, 5, 10), 1); // behind the card: nobody saw it
+    EXPECT_EQ(views.coverage(5, 5, 10), 1); // behind the card: no view saw it
     EXPECT_EQ(views.coverage(300, 5, 2), 1);
     EXPECT_EQ(views.coverage(-1e30, 5, 2), 1);
     EXPECT_EQ(views.coverage(12, 5, std::numeric_limits<double>::infinity()), 1);
 }
 
-// One of two views sees it: between a quarter and three quarters, coverage is in proportion.
+// One of two views sees it: between a quarter and three quarters, coverage is proportional.
 TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
     TwoPlanes with = card_up_to(20), without = card_up_to(-100);
     const Windows w = windows_of_size(40, 10);
@@ -67,8 +67,9 @@ TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
     EXPECT_EQ(coverage(0, 1), 0);
 }
 
-// A veil covers a part of the pixels that see it, and votes for itself with the whole of each: a wall that another view sees
-// past it has no more of a vote. A veil in front of the surface is a vote against it, and what that leaves open another.
+// A veil covers part of the pixels that see it, and votes for itself with all of each: another view that sees a wall
+// past it has no larger vote. A veil in front of a surface is a vote against the surface, and the open part of the veil
+// is another.
 TEST(VisibilityVote, WhatAVeilLeavesOpenIsNoVoteAgainstIt) {
     const Windows w = windows_of_size(8, 8);
     const auto coverage = [&](const std::vector<ViewPixel> &pixels, double z) {
@@ -81,7 +82,7 @@ TEST(VisibilityVote, WhatAVeilLeavesOpenIsNoVoteAgainstIt) {
     EXPECT_EQ(coverage({veil, veil, veil}, 2), 1);
     EXPECT_DOUBLE_EQ(coverage({veil, wall}, 2), 0.5);
     EXPECT_DOUBLE_EQ(coverage({veil, veil, veil, wall, wall, wall}, 2), 0.5);
-    EXPECT_EQ(coverage({veil}, 10), 0); // it looks past the wall's place
+    EXPECT_EQ(coverage({veil}, 10), 0); // it looks past the wall's position
 }
 
 } // namespace

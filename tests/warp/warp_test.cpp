@@ -1,4 +1,4 @@
-// What a warp makes of views: whose pixels become samples, and where they lie.
+// The samples of a warp: from which views they come, and where they are.
 #include "deep/flatten.h"
 #include "deep/order.h"
 #include "deep/view_samples.h"
@@ -81,7 +81,7 @@ TEST(Warp, KeepLeavesTheCentreViewAsItIs) {
                 continue;
             }
             ASSERT_FALSE(samples.empty());
-            EXPECT_EQ(samples[0].z, views[0].z[pixel]); // so nothing lies before it
+            EXPECT_EQ(samples[0].z, views[0].z[pixel]); // so nothing is before it
             EXPECT_EQ(samples[0].colour, centre.plane(0)[pixel]);
             EXPECT_EQ(samples[0].alpha, centre.plane(3)[pixel]);
             EXPECT_EQ(samples[0].weight, 1);
@@ -93,7 +93,7 @@ TEST(Warp, KeepLeavesTheCentreViewAsItIs) {
     }
 }
 
-// Whatever the views show: z ascends strictly, so at infinity lies at most one sample.
+// For any views, z ascends strictly, so there is at most one sample at infinity.
 TEST(Warp, SamplesAreTidy) {
     const Windows w = windows_of_size(50, 40);
     for (const WarpOptions &options : {averaging, keeping}) {
@@ -121,7 +121,7 @@ TEST(Warp, ViewsThatAreTakenGiveTheSameLdi) {
 struct Witness {
     double depth;     // perceptive
     float colour;     // not premultiplied
-    Imath::V2d place; // in its pixel, 0..1
+    Imath::V2d place; // within its pixel, 0..1
 };
 
 // The view pixels that land in a pixel of the centre view.
@@ -147,7 +147,7 @@ private:
 
 double depth_of(float z) { return focal_px * radius / double(z); }
 
-// A see-through film behind an opaque bar covers there what it covers where the views see it, however few of them do.
+// A see-through film behind an opaque bar keeps its coverage there, however few views see it.
 TEST(Warp, AFilmBehindABarKeepsItsCoverage) {
     const float covers = 0.3f;
     TwoPlanes scene;
@@ -167,9 +167,9 @@ TEST(Warp, AFilmBehindABarKeepsItsCoverage) {
     EXPECT_GE(behind, 2u * 10); // beside both edges of the bar
 }
 
-// Extra vision: seeing what no view saw. Every sample's colour lies among those of view pixels that land within a
-// pixel of it, on its surface (no more than surface_px from one of its samples, so twice that from their mean). What fills
-// up the last of a pixel is what rim views see past it (opaque_pixels.h).
+// Extra vision means showing surfaces that no view saw. Every sample's colour must be within the colours of view pixels
+// that land within a pixel of it, on its surface (at most surface_px from one of its samples, so twice that from their
+// mean). Rim views that look past a pixel's last sample fill the pixel up (opaque_pixels.h).
 TEST(Warp, NothingIsInvented) {
     const Windows w = windows_of_size(40, 30);
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)})
@@ -203,8 +203,8 @@ TEST(Warp, NothingIsInvented) {
         }
 }
 
-// And nothing that is not in front of the centre view's surface, or outside of its picture, or that other views look
-// past, is left out: averaging, every such view pixel has a sample of its surface where it lands.
+// Nothing is left out unless it is in front of the centre view's surface, outside its picture, or other views look past
+// it. With averaging, every other view pixel has a sample of its surface where it lands.
 TEST(Warp, NothingIsLost) {
     const Windows w = windows_of_size(40, 30);
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)}) {
@@ -233,11 +233,11 @@ TEST(Warp, NothingIsLost) {
         });
         EXPECT_GT(seen_pixels, 3 * w.pixels());
         EXPECT_LE(lost,
-                  seen_pixels / 2000); // the vote is on the mean place of a surface's samples in a pixel
+                  seen_pixels / 2000); // the vote is at the mean position of a surface's samples in a pixel
     }
 }
 
-// Red stripes in front of green: no sample mixes them, and behind the stripes' edges the hidden green appears.
+// Red stripes in front of green: no sample mixes them, and the hidden green appears behind the stripes' edges.
 TEST(Warp, SurfacesDoNotMixAndTheHiddenAppears) {
     const Windows w = windows_of_size(64, 20);
     const auto views = five_views(fence(), w, radius);
@@ -250,12 +250,12 @@ TEST(Warp, SurfacesDoNotMixAndTheHiddenAppears) {
             hidden += !front && views[0].z[std::size_t(y * 64 + x)] == 2;
         }
     });
-    // The stripes move by 2.4 px against the back plane: at each of a stripe's two edges 2 to 3 columns appear.
+    // The stripes move by 2.4 px against the back plane: 2 to 3 columns appear at each of a stripe's two edges.
     EXPECT_GE(hidden, std::size_t(20 * 4 * 2 * 2));
     EXPECT_LE(hidden, std::size_t(20 * 4 * 2 * 3));
 }
 
-// Left whole, the light of the nearer one would be seen at the depth of the farther one: a small lamp then has a
+// Unsplit, the nearer surface's light would appear at the depth of the farther one, and a small lamp would have a
 // second disc.
 TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
     const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
@@ -273,7 +273,7 @@ TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
     }
 }
 
-// Where samples lie is kept below the pixel: a picture whose colour is its position says so.
+// Sub-pixel positions of samples are kept: a picture whose colour encodes its position shows this.
 TEST(Warp, SubPixelPositionsAreKept) {
     TwoPlanes scene = fence();
     scene.front_red = [](double x, double y) { return float(x + 0.25 * y); };
@@ -282,7 +282,7 @@ TEST(Warp, SubPixelPositionsAreKept) {
     int checked = 0;
     for_each_pixel(ldi.windows.data, [&](int x, int y) {
         for (const TestSample &s : pixel_at(ldi, x, y)) {
-            if (s.z > 5) continue; // of the front plane, whose colour is red
+            if (s.z > 5) continue; // only the front plane, whose colour is red
             ++checked;
             EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx) + 0.25 * (y + 0.5 + double(s.dy)), 1e-4);
         }

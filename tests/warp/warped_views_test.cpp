@@ -1,4 +1,4 @@
-// Which views a warp takes: in any order, of other windows, with other channels, empty ones.
+// Any views can be warped: in any order, with other windows, with other channels, and empty ones.
 #include "base/error.h"
 #include "support/scratch_folder.h"
 #include "warp/warp_fixture.h"
@@ -28,7 +28,7 @@ TEST(WarpedViews, TheOrderOfRimViewsDoesNotMatter) {
     }
 }
 
-// Also where they stand at one point, as renders of one view with other noise do.
+// Also if they have one position, as renders of one view with different noise.
 TEST(WarpedViews, TheOrderOfViewsAtOnePointDoesNotMatter) {
     const Windows w = windows_of_size(40, 30);
     auto views = random_views(w, 7);
@@ -116,7 +116,7 @@ TEST(WarpedViews, IdsAreNeverAveraged) {
         if (views[0].image.at(3, x, y) == 0) return;
         const std::size_t pixel = std::size_t(y - grown.data.min.y) * std::size_t(grown.width()) +
                                   std::size_t(x - grown.data.min.x);
-        EXPECT_EQ(ldi.values[4][ldi.pixel(pixel).front()], 13); // the centre view's, which is in front
+        EXPECT_EQ(ldi.values[4][ldi.pixel(pixel).front()], 13); // from the centre view, which is in front
     });
 }
 
@@ -127,7 +127,7 @@ TEST(WarpedViews, EmptyPixelsOfRimViewsAddNothing) {
     expect_same_bits(warped({centre, empty}), warped({centre}));
 }
 
-// Nothing lies in front of what the centre view shows, and it shows the background.
+// Nothing is in front of the centre view's surface, which is the background.
 TEST(WarpedViews, AnEmptyCentreStaysEmpty) {
     const Windows w = windows_of_size(12, 12);
     const View nothing = make_view(w, {0, 0}, [](int, int) { return ViewPixel{.a = 0}; });
@@ -136,7 +136,7 @@ TEST(WarpedViews, AnEmptyCentreStaysEmpty) {
     EXPECT_EQ(warped({nothing, rim}, keeping).samples(), 0u);
 }
 
-// Averaging keeps what rim views saw beside the centre view's picture: a lens sees it there too.
+// Averaging keeps pixels of rim views beside the centre view's picture, because a lens sees them too.
 TEST(WarpedViews, WhatLiesBesideThePictureIsKept) {
     const TwoPlanes scene = one_plane([](double x, double) { return float(x); });
     const Windows w = windows_of_size(20, 10);
@@ -147,7 +147,7 @@ TEST(WarpedViews, WhatLiesBesideThePictureIsKept) {
     for_each_pixel({{-reach, 0}, {-1, 9}}, [&](int x, int y) {
         const TestPixel samples = pixel_at(ldi, x, y);
         ASSERT_LE(samples.size(), 1u);
-        EXPECT_TRUE(x == -reach || samples.size() == 1); // the last column is reached in part
+        EXPECT_TRUE(x == -reach || samples.size() == 1); // the last column is only partly reached
         for (const TestSample &s : samples) EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx), 1e-4);
     });
     EXPECT_EQ(warped(views, keeping).windows, w);

@@ -180,7 +180,7 @@ TEST(Systems, PlannedViewsAreThereWhereThereIsAPlanner) {
               std::string::npos);
 }
 
-// A folder of views: 8 of 64 samples a pixel, and in a folder of their own 2 of 4 samples.
+// A folder of 8 views with 64 samples per pixel, and inside it another folder of 2 views with 4 samples.
 class ReadyViews : public testing::Test {
 protected:
     ReadyViews() {
@@ -222,7 +222,7 @@ TEST_F(ReadyViews, RowsAreWhatTheViewsAllow) {
                                      [&](const auto &r) { return r.row.renderer == renderer; });
     };
     EXPECT_EQ(count("one view"), 6);                // both sample counts
-    EXPECT_EQ(count("centre + 4"), 6);              // of 64 samples alone
+    EXPECT_EQ(count("centre + 4"), 6);              // only with 64 samples
     EXPECT_EQ(count("distributed ray tracing"), 1); // the other has a time but no picture
     for (const Step &step : all.steps) EXPECT_NE(step.commands[0].words[0], "dof-trace");
 }

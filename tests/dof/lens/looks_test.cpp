@@ -308,7 +308,8 @@ TEST(LensLooks, CutCatEyes) {
     EXPECT_NEAR(sum, 1000 * left / std::numbers::pi, 10);
 }
 
-// A plane keeps of its light what is left of the lens: behind focus, in front, and in focus, where nothing is blurred.
+// A plane keeps the share of its light that the rest of the lens passes: behind focus, in front, and in focus, where
+// nothing is blurred.
 TEST(LensLooks, DarkenWhatACatEyeCuts) {
     for (const double coc : {6.0, -6.0, 0.0}) {
         const Ldi ldi = make_ldi(windows_of_size(160, 120), rgba_channels(), [&](int, int) {
@@ -335,11 +336,11 @@ TEST(LensLooks, LeaveAPinholeItsLight) {
     EXPECT_EQ(dark.values, gather(ldi, {.magnification = 1.1}, pinhole).values);
 }
 
-// Data has no colour and no rim: it is gathered as through an even lens of one colour.
+// Data has no colour and no rim: it is gathered as if through an even lens of one colour.
 TEST(LensLooks, LeaveDataAlone) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"velocity"});
-    channels.push_back({"normal.R"}); // red by its letter alone
+    channels.push_back({"normal.R"}); // only its letter means red
     find_kinds(channels);
     const auto sample = [](int x, int y) {
         const float v = float(random_unit(x, y, 3));

@@ -80,7 +80,7 @@ TEST(SampleBlocks, FollowEachOtherAndBoundWhatTheyHold) {
 }
 
 TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
-    // Nothing; half; all but nothing; all, by several; all; all but what half rounds away.
+    // Coverage: none; half; less than full; almost full, by two samples; full; full up to rounding in half.
     const std::vector<std::vector<float>> alphas{{},        {0.5f},    {0.5f, 0.9f}, {0.99f, 0.99f},
                                                  {0.3f, 1}, {0.99999f}};
     Windows windows = windows_of_size(int(alphas.size()), 2);
@@ -90,7 +90,7 @@ TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
         return samples;
     });
     const BlockedSamples samples =
-        make_blocks(ldi, lens, Imath::Box2i({0, 0}, {5, 0})); // of the second row nothing is known
+        make_blocks(ldi, lens, Imath::Box2i({0, 0}, {5, 0})); // nothing is known of the second row
     std::set<std::pair<float, float>> clear;
     for (std::size_t i = 0; i < samples.count(); ++i) {
         if (!is_background(samples, i)) continue;
@@ -100,7 +100,7 @@ TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
         clear.insert({samples.x[i], samples.coc[i]});
     }
     const auto coc = [](double z) { return float(circle_of_confusion(lens, z)); };
-    // At infinity, and where the last sample lies.
+    // At infinity, and at the depth of the last sample.
     const std::set<std::pair<float, float>> expected{
         {0.5f, coc(inf)}, {1.5f, coc(inf)}, {1.5f, coc(1)}, {2.5f, coc(inf)}, {2.5f, coc(2)}};
     EXPECT_EQ(clear, expected);

@@ -1,4 +1,4 @@
-// What a lens point sees of a tile, by closed forms.
+// The samples that a lens point sees in a tile, by closed forms.
 #include "see_fixture.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace {
 
 using Samples = std::vector<Sample>;
 
-// How many pixels of the tile show what `key(x, y)` says.
+// The number of pixels in the tile that show `key(x, y)`.
 template <typename Key>
 int count_shown(const Seen &seen, const Key &key) {
     int count = 0;
@@ -54,11 +54,11 @@ TEST(See, TheNearerOfTwoSurfacesIsInFront) {
     const Seen &seen = see.through(tile.points[0]);
     EXPECT_EQ(seen.front[tile_cells::at(27, 27)], tile.key(30, 30));
     EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(x, y); }), 64 * 64 - 2);
-    EXPECT_EQ(count_empty(seen), 1); // no view saw what it hid: it is at (30, 30)
+    EXPECT_EQ(count_empty(seen), 1); // no view saw what was hidden at (30, 30)
     EXPECT_EQ(seen.empty[30], std::uint64_t{1} << 30);
 }
 
-// Two columns of one surface, seen at 16.7 and 18.1: what is between shows the farther.
+// Two columns of one surface, seen at 16.7 and 18.1: the pixel between them shows the farther.
 TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
     const TileFixture tile([](int x, int) { return Samples{opaque_at(x <= 10 ? 6 : 6.4)}; },
                            {{1, 0, .2f, 0, 1}});
@@ -75,7 +75,7 @@ TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
     }
 }
 
-// The same columns before a ground, which every pixel has behind them: it is not seen between them where it is far behind.
+// The same columns before a ground in every pixel. A ground far behind does not show between them.
 TEST(See, ASurfaceShowsThroughItsCracksBeforeWhatIsFarBehind) {
     for (const double behind : {0.9, 1.1, 6.0}) {
         const TileFixture tile(
@@ -93,7 +93,7 @@ TEST(See, ASurfaceShowsThroughItsCracksBeforeWhatIsFarBehind) {
     }
 }
 
-// A gap that the picture shows is none: the posts on either side of it are not side by side.
+// A gap in the picture is not closed: the posts on either side are not neighbours.
 TEST(See, NothingClosesAGapThatThePictureShows) {
     const TileFixture tile([](int x, int) { return x % 2 ? Samples{opaque_at(-6)} : Samples{opaque_at(6)}; },
                            {{0, 0, 0, 0, 1}});
@@ -104,7 +104,7 @@ TEST(See, NothingClosesAGapThatThePictureShows) {
     EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(x, y); }), 64 * 64);
 }
 
-// A mirror in focus: the window stays where it is, and what it shows, of CoC 6, moves in it by 3 pixels.
+// A mirror in focus: its surface stays in place, and its image of CoC 6 moves inside it by 3 pixels.
 TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
     const TileFixture tile(
         [](int, int) {
@@ -117,7 +117,7 @@ TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
-    // The column to the left of the first image shows that image, the columns farther left show the mirror.
+    // The column to the left of the first image shows that image; the columns farther left show the mirror.
     EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(std::max(x - 3, x < 2 ? x : 0), y); }),
               64 * 64);
     EXPECT_EQ(seen.front[tile_cells::at(40, 50)], tile.key(40, 50));

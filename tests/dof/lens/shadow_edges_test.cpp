@@ -1,4 +1,5 @@
-// Shadows of a square pixel, by hand; and what a group's middle lamp says of the others, against each of them.
+// Shadows of a square pixel, by hand; and shadows of a group, computed for its middle lamp, compared with those of each
+// lamp.
 #include "dof/lens/shadow_edges.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,8 @@ Footprint square_at(float x, float y, float coc) {
 }
 ShadowEdges edges_of(const ShadowedLamp &lamp, const Footprint &thing) { return {lamp, 1, {0, 0}, thing}; }
 
-// A lamp of 100 pixels' CoC at (10, 20); what has half of it casts a shadow twice as large about the lamp.
+// A lamp with a CoC of 100 pixels at (10, 20); an object with half that CoC casts a shadow twice as large about the
+// lamp.
 TEST(ShadowEdges, AreThoseOfTheThingMagnifiedAboutTheLamp) {
     const ShadowedLamp lamp = lamp_at({10, 20}, 100);
     const Imath::Box2f shadow = edges_of(lamp, square_at(15, 22, 50)).shadow();

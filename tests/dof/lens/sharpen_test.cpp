@@ -40,7 +40,7 @@ double change(const Ldi &ldi, std::size_t channel = 0) {
     return largest;
 }
 
-// Between calm areas: what is everywhere counts as noise.
+// Detail between calm areas, because detail everywhere counts as noise.
 double checks(int x, int y) { return x / 8 % 2 == 0 ? 0.5 : (x + y) % 2 ? 0.8 : 0.2; }
 
 TEST(Sharpen, LeavesAloneWhatIsFarFromFocusOrHasNoColour) {
@@ -62,8 +62,8 @@ TEST(Sharpen, FadesOutTowardsLargeBlur) {
     EXPECT_LT(last, 0.01);
 }
 
-// A wave of w radians a pixel along both axes keeps 2 J1(w' c) / (w' c) of its amplitude under a disc of radius c,
-// w' = sqrt(2) w; the gather's own interpolation takes away more, and sharpening brings that back.
+// A wave of w radians per pixel along both axes keeps 2 J1(w' c) / (w' c) of its amplitude under a disc of radius c, w'
+// = sqrt(2) w. The gather's own interpolation removes more, which sharpening restores.
 TEST(Sharpen, RestoresWhatInterpolationBlurs) {
     const double w = 2 * std::numbers::pi / 6;
     for (const double c : {0.6, 0.8, 1.3, -1.3}) {
@@ -95,13 +95,13 @@ TEST(Sharpen, LeavesNoiseAlone) {
     for (std::size_t i = 0; i < before.count; ++i)
         squares += std::pow(double(blocked.colours.at(0, i)) - double(before.at(0, i)), 2);
     EXPECT_LT(std::sqrt(squares / double(before.count)),
-              0.05 * 0.1 / std::sqrt(12)); // of the noise's deviation
-    // An edge between noisy areas is no noise.
+              0.05 * 0.1 / std::sqrt(12)); // of the noise's standard deviation
+    // An edge between noisy areas is not noise.
     const auto edge = [&](int x, int y) { return noise(x, y) + (x < 32 ? 0 : 2); };
     EXPECT_GT(change(plane(1, edge)), 0.1);
 }
 
-// What is made up beside noise is calm, and would have the noise taken for detail.
+// The made-up samples beside the noise are calm; if they counted, the noise would be taken for detail.
 TEST(Sharpen, AsksOnlyWhatWasSeenForItsNoise) {
     const Ldi ldi = plane(1, [](int x, int y) { return x < 20 ? 0.5 + 0.1 * random_unit(x, y, 1) : 0.5; });
     const auto change = [&](const std::optional<Imath::Box2i> &seen) {
@@ -121,9 +121,10 @@ TEST(Sharpen, AsksOnlyWhatWasSeenForItsNoise) {
     EXPECT_LT(change(Imath::Box2i({0, 0}, {19, 63})), 0.1 * change({}));
 }
 
-// As the aperture opens, the wall behind the edge of a lamp becomes another surface; not from one frame to the next.
+// As the aperture opens, the wall behind the edge of a lamp gradually becomes another surface, not from one frame to
+// the next.
 TEST(Sharpen, LetsGoOfASurfaceByAndBy) {
-    const auto edge_at = [](double rf) { // R F; the surfaces are as far apart as it makes them
+    const auto edge_at = [](double rf) { // R F, which sets the distance between the surfaces
         const ThinLens by{.radius = rf / 640, .focal_px = 640, .focus = 6};
         const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int) {
             const float v = x < 30 ? 0.1f : x < 33 ? 50.0f : x == 33 ? 5.0f : 0.1f;
@@ -136,7 +137,7 @@ TEST(Sharpen, LetsGoOfASurfaceByAndBy) {
             place_of(blocked.samples, ldi, ldi.windows.index(33, 32), std::uint32_t(sample));
         return double(blocked.colours.at(0, place));
     };
-    constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of perceptive depth, between them
+    constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of perceptive depth between the surfaces
     EXPECT_EQ(edge_at(parted), 5);
     EXPECT_LT(edge_at(joined), 2);
     double last = edge_at(joined);
@@ -159,7 +160,7 @@ TEST(Sharpen, NeverMakesLightNegative) {
     EXPECT_GT(change(ldi), 1);
 }
 
-// The wall beside a lamp has the wall behind the lamp for its neighbour, not the lamp: it gives nothing to that.
+// The neighbour of the wall beside a lamp is the wall behind the lamp, not the lamp, so it gives nothing to the lamp.
 TEST(Sharpen, MakesNoLightBeforeAWall) {
     const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int y) {
         std::vector<Sample> samples{{depth_of(lens, 1.2), {0.2f, 0.2f, 0.2f, 1}}};
@@ -173,7 +174,7 @@ TEST(Sharpen, MakesNoLightBeforeAWall) {
     EXPECT_NEAR(light, 500 + 64 * 64 * 0.2, 0.01);
 }
 
-// Denoisers leave negative colours. A sample that has nothing brighter beside it gives nothing away.
+// Denoisers leave negative colours. A sample without a brighter neighbour gives nothing away.
 TEST(Sharpen, KeepsNegativeColours) {
     const Ldi ldi = plane(1, [](int, int) { return -1e-3; });
     BlockedLdi blocked(ldi, lens);
@@ -204,7 +205,7 @@ TEST(Sharpen, ChangesAllLayersByTheSameWeightsAndNeitherCoverageNorIds) {
     }
 }
 
-// Sheets and mist of the same all over the picture have no detail, however close they lie.
+// Sheets and mist that are the same all over the picture have no detail, however close they are.
 TEST(Sharpen, TellsTheSamplesOfAStackApart) {
     for (const double distance : {0.3, 1e-6}) {
         const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [&](int x, int) {

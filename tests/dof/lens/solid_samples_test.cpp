@@ -1,4 +1,4 @@
-// What is solid behind samples, as a lens point sees it: closed forms.
+// Solids behind samples as a lens point sees them: closed forms.
 #include "dof/lens/see_fixture.h"
 #include "dof/lens/solid_samples.h"
 
@@ -11,14 +11,14 @@ using Samples = std::vector<Sample>;
 
 const ThinLens &lens = TileFixture::lens;
 
-// So that the solid has a CoC that is greater by so much.
+// Makes the sample solid; the solid's CoC is greater by `coc`.
 Sample solid(Sample sample, double coc) {
     sample.solid = coc / (lens.radius * lens.focal_px);
     return sample;
 }
 
-// A sample of CoC -4 in a column, solid to -2, before a wall of that CoC or before nothing, all seen through the right rim of
-// the lens.
+// A sample of CoC -4 in one column, solid to -2, before a wall of that CoC or before nothing, all seen through the
+// right rim of the lens.
 struct SeenSolid {
     TileFixture tile;
     BlockedSamples solids = place_solids(tile.ldi, lens, tile.blocked.samples);
@@ -33,7 +33,7 @@ struct SeenSolid {
               },
               {{1, 0, 0, 0, 1}}) {}
 
-    // In a row.
+    // The sample seen at column x of a row.
     std::uint64_t seen_at(int x) const {
         GatherScene scene = tile.scene();
         scene.solids = solids;
@@ -54,7 +54,7 @@ TEST(SolidSamples, HideWhatLiesAsFarBehindThemAsTheyLieBehindTheirSample) {
 }
 
 TEST(SolidSamples, LeaveWhatIsEmptyEmpty) {
-    const SeenSolid left({}, 2, 5); // where no sky comes from, which has CoC 7.7
+    const SeenSolid left({}, 2, 5); // no sky comes from there; its CoC is 7.7
     EXPECT_EQ(left.seen_at(1), left.tile.key(5, 7));
     EXPECT_EQ(left.seen_at(3), 0u);
     const SeenSolid right({}, 2, 20);
@@ -63,11 +63,11 @@ TEST(SolidSamples, LeaveWhatIsEmptyEmpty) {
 
 TEST(SolidSamples, ThatWouldHideNothingAreNone) {
     EXPECT_EQ(SeenSolid(1).solids.count(), 64u);
-    EXPECT_EQ(SeenSolid(1, 6).solids.count(), 0u); // CoC 8 and more are behind infinity
+    EXPECT_EQ(SeenSolid(1, 6).solids.count(), 0u); // a CoC of 8 and more is behind infinity
     EXPECT_EQ(SeenSolid(1, 0).solids.count(), 0u);
 }
 
-// The key's sample of the only solid; none.
+// The key of the sample that the only solid shows; empty if there is no solid.
 std::optional<std::uint64_t> shown(const std::function<Samples(int x, int y)> &samples_at) {
     const TileFixture tile(samples_at, {});
     const BlockedSamples solids = place_solids(tile.ldi, lens, tile.blocked.samples);
@@ -83,7 +83,7 @@ TEST(SolidSamples, OfEdgesShowTheNearestOpaqueSampleAround) {
         if (x == 19 && y == 20) return Samples{opaque_at(farther)};
         return Samples{};
     };
-    // The samples in order: 19, 20 and its own opaque one in row 20, then that of row 21.
+    // The samples in order: 19, 20 and the solid's own opaque one in row 20, then the one of row 21.
     EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -3.5, -3); }), 3u);
     EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -6, -3); }), 0u);
     EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -1.5, 0); }), std::nullopt);

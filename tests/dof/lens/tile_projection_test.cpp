@@ -16,7 +16,8 @@ namespace {
 
 constexpr int size = 8, stride = size + 2;
 
-// In double, from where the sample is drawn: all numbers of the test are short enough for float to be exact.
+// Computed in double from the position of the drawn sample: all numbers in the test are short enough to be exact in
+// float.
 int cell_of(const LensSample &lens, double corner_x, double corner_y, double x, double y, double coc) {
     const double column = std::floor(x + coc * double(lens.x) + double(lens.pixel_x) - corner_x) + 1;
     const double row = std::floor(y + coc * double(lens.y) + double(lens.pixel_y) - corner_y) + 1;
@@ -29,7 +30,7 @@ TEST(TileProjection, SamplesFallWhereTheLensPointSeesThem) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> eighths(-8 * 20, 8 * 20);
     std::vector<float> x, y, coc;
-    for (int i = 0; i < 1000; ++i) { // an odd remainder for whatever the compiler takes at once
+    for (int i = 0; i < 1000; ++i) { // with a remainder for any vector width
         x.push_back(corner_x + float(eighths(random)) / 8);
         y.push_back(corner_y + float(eighths(random)) / 8);
         coc.push_back(float(eighths(random)) / 8);
@@ -52,7 +53,7 @@ TEST(TileProjection, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
     EXPECT_EQ(cells, (std::vector<std::int32_t>{5 * stride + stride - 1, 5 * stride, 5, 5 * stride}));
 }
 
-// Blocks of two samples each, drawn from around a tile.
+// Blocks of two samples each, placed at random around a tile.
 BlockedSamples random_blocks(std::uint32_t count) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> place(-60, 124), nearby(-8, 8), coc(-30, 30);

@@ -1,4 +1,4 @@
-// What lens points add to the sums, by closed forms: of what they see, written down by hand.
+// The sums that lens points contribute, by closed forms, for hand-made visible samples.
 #include "dof/lens/weigh.h"
 #include "see_fixture.h"
 
@@ -10,10 +10,10 @@ namespace {
 using Samples = std::vector<Sample>;
 using tile_cells::at;
 
-constexpr int x = 12, y = 34; // the pixel that is asked for
+constexpr int x = 12, y = 34; // the tested pixel
 constexpr std::size_t pixel = y * 64 + x;
 
-// Three samples at every pixel: partial, and one behind it, of value 2; in front of focus, opaque, of value 8.
+// Three samples: a partial one; one behind focus, of value 2; an opaque one in front of focus, of value 8.
 struct WeighTest : testing::Test {
     const TileFixture tile{[](int column, int row) {
                                if (column == 1 && row == 1) return Samples{opaque_at(-3, 8)};
@@ -23,7 +23,7 @@ struct WeighTest : testing::Test {
                            {}};
     const std::uint64_t behind = tile.key(x, y), in_front = tile.key(1, 1), partial = tile.key(0, 0);
 
-    // A lens point that sees nothing, the partial sample somewhere else.
+    // A lens point that sees nothing at the pixel; the partial sample is elsewhere.
     Seen nothing() const {
         const auto i = std::uint32_t(partial);
         const BlockedSamples &samples = tile.blocked.samples;
@@ -37,14 +37,14 @@ struct WeighTest : testing::Test {
         seen.partial_cells = {0};
         return seen;
     }
-    // ... but for an opaque sample at the pixel.
+    // ... with an opaque sample at the pixel.
     Seen opaque(std::uint64_t key) const {
         Seen seen = nothing();
         seen.front[at(x, y)] = key;
         seen.empty[y] ^= std::uint64_t{1} << x;
         return seen;
     }
-    // The same behind the partial one.
+    // The same behind the partial sample.
     static Seen covered(Seen seen) {
         seen.partial_cells = {std::int32_t(at(x, y))};
         return seen;
@@ -52,7 +52,7 @@ struct WeighTest : testing::Test {
     struct Mean {
         float value, known;
     };
-    // The mean of channel Y over lens points that each see their part.
+    // The mean of channel Y over lens points with their visible samples.
     template <typename Light>
     Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const LensLooks &looks = {}) const {
         const GatherScene scene = tile.scene(looks);
@@ -104,8 +104,8 @@ TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
     EXPECT_FLOAT_EQ(one_side, (1.5f * 2 + 1.5f * (.25f * 4 + .75f * 2)) / 3);
 }
 
-// A cat's eye lets one lens point of two through at that pixel. It is the mean, whatever light comes through that point; or,
-// where it darkens, that light.
+// A cat's eye lets one of two lens points through at that pixel. The result is the mean light at that point, whatever
+// the point's weight; with darkening, the light times that weight.
 TEST_F(WeighTest, ACatsEyeLeavesOutOrDarkens) {
     const LensSample bright{0, 0, 0, 0, .5f, {1, 3, 1}};
     Seen beside = opaque(in_front);

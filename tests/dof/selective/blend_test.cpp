@@ -26,7 +26,7 @@ TEST(Blend, BinsFollowDepthAndStayFew) {
     EXPECT_LT(depth_bin(1e30), 10000);
 }
 
-// Sums of a layer of one colour channel.
+// The sums of a layer of one colour channel.
 struct Layer {
     double coverage, known, colour;
 };
@@ -50,7 +50,7 @@ TEST(Blend, CoverageBeyondOneIsAMean) {
 }
 
 TEST(Blend, LightThatPassesIsKnown) {
-    // A veil that stops 0.4, known all over, before a plane of which nobody saw much: the veil keeps its coverage.
+    // A veil of coverage 0.4, known everywhere, before a plane that is mostly unseen: the veil keeps its coverage.
     double colour = 0;
     EXPECT_DOUBLE_EQ(blend({{0.4, 1, 0.4}, {0.1, 0.1, 0.1 * 3}}, colour), 1);
     EXPECT_DOUBLE_EQ(colour, 0.4 * 1 + 0.6 * 3);
@@ -59,7 +59,7 @@ TEST(Blend, LightThatPassesIsKnown) {
 }
 
 TEST(Blend, UnknownIsLeftOut) {
-    // Half of what is behind the front layer was seen by nobody: the half that was stands for it.
+    // Half of the area behind the front layer is unseen; the seen half stands for all of it.
     double colour = 0;
     EXPECT_DOUBLE_EQ(blend({{0.5, 0.5, 0.5 * 6}, {0.25, 0.25, 0.25 * 2}, {0, 0.25, 0}}, colour),
                      0.5 + 0.5 * 0.5);
@@ -97,7 +97,7 @@ TEST(Blend, FrameShareIsWhatLiesInside) {
 
 constexpr double bin_coverage = 0.3;
 
-// Adds one bin at one pixel, its colour its number.
+// Adds one bin at one pixel; its colour is its number.
 void add(TileLayers &layers, int bin) {
     const std::array<double, 3> sums{bin_coverage, bin_coverage, bin_coverage * bin};
     layers.add(0, bin, sums.data(), 1, 1);

@@ -46,7 +46,7 @@ TEST(Selective, PlanesAreConvolvedWithTheirDiscs) {
             by.pixel_aspect = aspect;
             Windows windows = windows_of_size(100, 60);
             windows.pixel_aspect = float(aspect);
-            // Two planes side by side; what is compared is clear of the border between them.
+            // Two planes side by side; compared away from the border between them.
             const Ldi ldi = make_ldi(windows, grey, [&](int x, int y) {
                 return std::vector<Sample>{{depth_of(by, x < 50 ? c : -c), {float(texture(x, y))}}};
             });
@@ -95,7 +95,7 @@ TEST(Selective, ConstantTransparencyStaysConstant) {
 }
 
 TEST(Selective, LikeStacksGiveTheirComposite) {
-    // The same samples in every pixel, near each other and far apart: one layer or several, the same answer.
+    // The same samples in every pixel, near each other and far apart: one layer or several, with the same result.
     const std::vector<Sample> stack{{depth_of(lens, -6), {0.1f, 0.3f}},
                                     {depth_of(lens, -5.4), {0.05f, 0.2f}},
                                     {depth_of(lens, -2), {0.4f, 0.5f}},
@@ -117,7 +117,7 @@ TEST(Selective, SharpSamplesAreFlattened) {
     EXPECT_LT(largest_difference(gather(ldi, lens), flatten(ldi)), 1e-6);
 }
 
-// A lamp of radiance 1 in pixel (x, y) with CoC c, in front of a black plane in focus.
+// A lamp of radiance 1 in pixel (x, y) with CoC c, before a black plane in focus.
 Ldi lamp_before_black(int size, const ThinLens &by, double c, Imath::V2i pixel, float dx, float dy) {
     Windows windows = windows_of_size(size, size);
     windows.pixel_aspect = float(by.pixel_aspect);
@@ -130,7 +130,7 @@ Ldi lamp_before_black(int size, const ThinLens &by, double c, Imath::V2i pixel, 
 
 TEST(Selective, PointKeepsItsEnergyAndPlace) {
     for (const double c : {0.6, 1.0, 2.5, 9.7, 31.0, 100.0}) {
-        const int size = 4 * int(c + 2) + 8; // so that no disc around what it reaches leaves the picture
+        const int size = 4 * int(c + 2) + 8; // so that no disc around a reached pixel leaves the picture
         const Imath::V2i pixel(size / 2 - 1, size / 2 + 1);
         const Image image = gather(lamp_before_black(size, lens, -c, pixel, 0.3f, -0.2f), lens);
         double sum = 0, x_mean = 0, y_mean = 0;
@@ -149,7 +149,7 @@ TEST(Selective, PointKeepsItsEnergyAndPlace) {
 }
 
 TEST(Selective, PointBehindFocusSpreadsIntoItsNeighbours) {
-    // In a plane of its own depth, c > 0: sums of the neighbours' coverage make the weights.
+    // In a plane at its own depth, c > 0: the weights come from sums of the neighbours' coverage.
     for (const double c : {0.1, 0.4, 1.3, 5.2}) {
         const Ldi ldi = make_ldi(windows_of_size(41, 41), grey, [=](int x, int y) {
             return std::vector<Sample>{{depth_of(lens, c), {x == 20 && y == 20 ? 1.0f : 0.0f}}};
@@ -204,7 +204,7 @@ TEST(Selective, BlurredOccluderLetsThroughWhatItDoesNotCover) {
     const auto in_strip = [](int x, int) { return x >= 30 && x < 34 ? 1.0 : 0.0; };
     const auto texture = [](int x, int y) { return random_unit(x, y, 4); };
     for (const bool known_behind : {true, false}) {
-        // Where nobody saw what the strip hides, the plane is of one colour: its neighbours must stand in for it.
+        // Where the area behind the strip is unseen, the plane has one colour, so that its neighbours can stand for it.
         const Ldi ldi = make_ldi(windows_of_size(64, 40), grey_alpha, [&](int x, int y) {
             std::vector<Sample> samples;
             if (in_strip(x, y) > 0) samples.push_back({depth_of(lens, -7), {2, 1}});
@@ -215,7 +215,7 @@ TEST(Selective, BlurredOccluderLetsThroughWhatItDoesNotCover) {
         const Image image = gather(ldi, lens);
         for (int y = 10; y < 30; ++y)
             for (int x = 10; x < 54; ++x) {
-                if (!known_behind && in_strip(x, y) > 0) continue; // nothing but the strip is known there
+                if (!known_behind && in_strip(x, y) > 0) continue; // only the strip is known there
                 const double cover = convolve(in_strip, 7, 1, x, y),
                              behind = known_behind ? texture(x, y) : 0.5;
                 ASSERT_NEAR(image.at(0, x, y), 2 * cover + (1 - cover) * behind, 1e-5) << x << "," << y;
@@ -225,7 +225,7 @@ TEST(Selective, BlurredOccluderLetsThroughWhatItDoesNotCover) {
 }
 
 TEST(Selective, SharpOccluderStaysSharp) {
-    // A strip in focus before a blurred plane that holds a lamp beside it.
+    // A strip in focus before a blurred plane with a lamp beside the strip.
     const Ldi ldi = make_ldi(windows_of_size(64, 40), grey, [&](int x, int y) {
         if (x >= 30 && x < 34) return std::vector<Sample>{{5, {0.25f}}};
         return std::vector<Sample>{{depth_of(lens, 5), {x == 36 && y == 20 ? 100.0f : 1.0f}}};
@@ -236,7 +236,7 @@ TEST(Selective, SharpOccluderStaysSharp) {
             if (x >= 30 && x < 34) {
                 ASSERT_EQ(image.at(0, x, y), 0.25f);
             } else {
-                ASSERT_GE(image.at(0, x, y), 1 - 1e-5f); // nothing of the strip
+                ASSERT_GE(image.at(0, x, y), 1 - 1e-5f); // without the strip's colour
             }
         }
     EXPECT_GT(image.at(0, 35, 20), 1.5f);
@@ -252,7 +252,7 @@ TEST(Selective, BlurredEdgeAgainstNothingHasItsAlpha) {
     const Image image = gather(ldi, far_focus);
     for (int y = 0; y < 45; ++y)
         for (int x = 0; x < 60; ++x) {
-            if (in_square(x, y) > 0) continue; // what is behind it nobody saw
+            if (in_square(x, y) > 0) continue; // the area behind it is unseen
             const double cover = convolve(in_square, 4, 1, x, y);
             ASSERT_NEAR(image.at(1, x, y), cover, 1e-5);
             ASSERT_NEAR(image.at(0, x, y), 3 * cover, 1e-5);
@@ -333,7 +333,7 @@ TEST(Selective, WindowsAreKept) {
 }
 
 TEST(Selective, HugeBlurIsTheMeanAndQuick) {
-    // All discs are larger than the picture: every pixel is the mean of all.
+    // All discs are larger than the picture, so every pixel is the mean of all.
     const ThinLens wide{.radius = 100, .focal_px = 640, .focus = 5};
     double mean = 0;
     const Ldi ldi = make_ldi(windows_of_size(200, 150), grey, [&](int x, int y) {

@@ -27,8 +27,8 @@ TEST(FrameNumbers, AreThoseOfTheRange) {
         EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
 }
 
-// Open Job Description: 1-20:2, and blanks; Slurm: the same; Nuke, Tractor, Deadline, OpenCue: 1-20x2. (To OpenCue 1-20:4 is
-// all frames in another order; it gives a process its first and last frame, docs/farm.md.)
+// Open Job Description: 1-20:2, and blanks; Slurm: the same; Nuke, Tractor, Deadline, OpenCue: 1-20x2. (In OpenCue,
+// 1-20:4 means all frames in another order; it gives a process its first and last frame, docs/farm.md.)
 TEST(FrameNumbers, AreSpelledAsEveryEngineSpellsThem) {
     const std::vector odd{1, 3, 5, 7};
     for (const char *range : {"1-7:2", "1-7x2", "1-8:2", "1,3,5,7", "1-3:2,5-7:2", " 1 - 7:2 ", "1,3, 5,\t7"})
@@ -66,14 +66,14 @@ TEST(FileAt, PutsTheNumberInEveryPlace) {
     EXPECT_EQ(file_at("%03d/a_v02.%04d.exr", 12), "012/a_v02.0012.exr");
     EXPECT_EQ(file_at("a.1-9x2##.exr", 3), "a.03.exr");
     EXPECT_EQ(file_at("100%_%s%n.exr", 3), "100%_%s%n.exr");
-    EXPECT_EQ(file_at("a.####.exr", -5), "a.-005.exr"); // as printf has it
+    EXPECT_EQ(file_at("a.####.exr", -5), "a.-005.exr"); // as with printf
     EXPECT_EQ(file_at("a.%d.exr", -5), "a.-5.exr");
     EXPECT_EQ(file_at("1-9:2#/a.-5-5##.1,3,5-9%d.exr", 3), "0003/a.03.3.exr");
     EXPECT_EQ(file_at("take2#.exr", 3), "take20003.exr");
-    EXPECT_EQ(file_at("a.@@@@.exr", 12), "a.0012.exr"); // as RV has it
+    EXPECT_EQ(file_at("a.@@@@.exr", 12), "a.0012.exr"); // as in RV
     EXPECT_EQ(file_at("a.@@.exr", -5), "a.-5.exr");
-    EXPECT_EQ(file_at("shot@2x.@me.exr", 12), "shot@2x.@me.exr"); // a name
-    EXPECT_EQ(file_at("$F/a.$F4.exr", 12), "12/a.0012.exr");      // as Houdini has it
+    EXPECT_EQ(file_at("shot@2x.@me.exr", 12), "shot@2x.@me.exr"); // an ordinary name
+    EXPECT_EQ(file_at("$F/a.$F4.exr", 12), "12/a.0012.exr");      // as in Houdini
     EXPECT_EQ(file_at("a.1-9$F2.exr", 3), "a.03.exr");
     for (const char *name : {"$FF.exr", "$F4x.exr", "$F0.exr", "$F12.exr", "$f4.exr", "F4.exr"})
         EXPECT_EQ(file_at(name, 12), name);
@@ -206,7 +206,7 @@ TEST(FrameCommands, RangesInNamesAreSpelledAsElsewhere) {
     EXPECT_EQ(names("a.-2--1%d"), "a.-2 a.-1");
     EXPECT_EQ(names("-1-1#"), "-001 0000 0001");
     EXPECT_EQ(names("shots/-1-1%d"), "shots/-1 shots/0 shots/1");
-    EXPECT_EQ(names("shot-1-3%d"), "shot-1 shot-2 shot-3"); // the first minus is part of the name
+    EXPECT_EQ(names("shot-1-3%d"), "shot-1 shot-2 shot-3"); // the first minus belongs to the name
     EXPECT_EQ(names("shot--1-0%d"), "shot--1 shot-0");
 }
 
@@ -215,7 +215,7 @@ TEST(FrameCommands, NegativeNumbersAreFoundOnDisk) {
     for (const char *name : {"in.-002.exr", "in.0001.exr", "in.-0001.exr"})
         put_contents(folder.file(name), "x");
     const FrameCommands commands({folder.file("in.####.exr"), "-o", "out.%d.exr"});
-    ASSERT_EQ(commands.size(), 2u); // -0001 is not how -1 is written in four digits
+    ASSERT_EQ(commands.size(), 2u); // %04d writes -1 as -001, not as -0001
     EXPECT_EQ(commands.words(0)[2], "out.-2.exr");
     EXPECT_EQ(commands.words(1)[2], "out.1.exr");
     EXPECT_EQ(FrameCommands({"--frames=-5--4", "-o", "#"}).words(0)[2], "-005");
@@ -234,7 +234,7 @@ TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
     EXPECT_THROW(FrameCommands({folder.file("in.x.exr"), "-o", "x.####.exr"}), UsageError);
 }
 
-// In OpenImageIO's regular expressions the first finds nothing and the second takes years.
+// As a regular expression in OpenImageIO, the first matches nothing and the second takes years.
 TEST(FrameCommands, WhatElseStandsInAFilesNameStandsForItself) {
     const ScratchFolder folder;
     const std::string stars = "t" + std::string(40, '*') + "-o.";
@@ -273,7 +273,7 @@ TEST(FrameCommands, FramesDoNotShareAnOutput) {
     }
 }
 
-// Names are names: a file that is called like a sequence is that file, unless --frames is given.
+// A file with the name of a sequence is that file, unless --frames is given.
 TEST(FrameCommands, AFileOfThatNameIsThatFile) {
     const ScratchFolder folder;
     put_contents(folder.file("take#2.exr"), "x");

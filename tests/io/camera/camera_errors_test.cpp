@@ -1,4 +1,4 @@
-// What is missing, wrong or contradictory in a header is an error that names the option to give.
+// Missing, wrong or contradictory attributes of a header give an error that names the option to use.
 #include "base/error.h"
 #include "io/camera/camera_headers.h"
 #include "io/camera/camera_read.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace camera_headers;
 
-// What resolving the lens of a header says, with these options.
+// The error message when the lens of a header is resolved with these options.
 std::string complaint(const Write &write, LensValues options = {}) {
     Imf::Header header(64, 36);
     write(header, Pose());
@@ -30,7 +30,7 @@ std::string complaint(const Write &write, LensValues options = {}) {
     }
 }
 
-// `write` with one attribute spoilt, or taken away.
+// `write` with one attribute changed to a wrong value, or removed.
 Write spoilt(const char *renderer, const char *attribute, std::optional<double> value) {
     const auto found =
         std::ranges::find_if(renderers(), [&](const Renderer &r) { return std::string(r.name) == renderer; });
@@ -52,13 +52,13 @@ TEST(CameraErrors, NameTheOptionThatIsMissing) {
               "the sensor width is unknown: give `sensor_width`");
     LensValues with_focus;
     with_focus.focus_distance = focus;
-    EXPECT_EQ(complaint(spoilt("V-Ray", "cameraFov", {}), with_focus), ""); // the film back is there
+    EXPECT_EQ(complaint(spoilt("V-Ray", "cameraFov", {}), with_focus), ""); // the film back is known
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraTransform", {}), with_focus), "");
     EXPECT_EQ(complaint(spoilt("Redshift", "rs/camera/aperture", {})),
               "the focal length is unknown: give `focal_length`");
 }
 
-// What the header says of the projection; "" if it may be a perspective.
+// The error message about the header's projection; "" if it may be a perspective.
 std::string projection_complaint(const Write &write) {
     Imf::Header header(64, 36);
     write(header, Pose());
@@ -70,19 +70,19 @@ std::string projection_complaint(const Write &write) {
     }
 }
 
-// No lens value that a user gives makes a perspective of them.
+// No lens option makes a perspective of them.
 TEST(CameraErrors, OtherProjectionsAreRefused) {
     const std::string why = "x.exr: its camera has no perspective (",
                       what_to_do =
                           "): render it with a perspective camera, or remove the attribute if it is wrong";
     for (const Renderer &renderer : renderers())
         EXPECT_EQ(projection_complaint(renderer.write), "") << renderer.name;
-    // From a picture 4 wide and 2.25 high: x right, y up, z forward.
+    // An orthographic picture 4 wide and 2.25 high: x right, y up, z forward.
     const Imath::M44d flat(0.25, 0, 0, 0, 0, -1 / 2.25, 0, 0, 0, 0, 0.01, 0, 0.5, 0.5, 0, 1);
     for (const char *name : {"worldToNDC", "NP", "dtex/np"})
         for (const bool placed : {true, false})
             for (const bool transposed : {true, false}) {
-                if (transposed && !placed) continue; // without the camera's place it could be anything
+                if (transposed && !placed) continue; // undecidable without the camera's position
                 EXPECT_EQ(projection_complaint([&](Imf::Header &h, const Pose &p) {
                               write_standard(h, p);
                               const Imath::M44d world_to_ndc = standard_camera(p).inverse() * flat;
@@ -94,7 +94,7 @@ TEST(CameraErrors, OtherProjectionsAreRefused) {
             }
     EXPECT_EQ(projection_complaint([](Imf::Header &h, const Pose &p) {
                   write_standard(h, p);
-                  put(h, "worldToNDC", Imath::M44d()); // says nothing
+                  put(h, "worldToNDC", Imath::M44d()); // an identity matrix says nothing
               }),
               "");
     const auto vray = [](double kind) { return spoilt("V-Ray", "cameraProjection", kind); };
@@ -139,7 +139,7 @@ TEST(CameraErrors, NameWhatContradicts) {
     EXPECT_NE(text.find("give `focal_length`"), text.npos);
     EXPECT_EQ(complaint(both("cameraFocalLength", 35.1)), ""); // rounded
     options.focal_length_mm = 50;
-    EXPECT_EQ(complaint(both("cameraFocalLength", 50), options), ""); // the option settles it
+    EXPECT_EQ(complaint(both("cameraFocalLength", 50), options), ""); // the option decides
     text = complaint(both("sparselens:sensorWidth", 36));
     EXPECT_NE(text.find("give `sensor_width`"), text.npos) << text;
     options = {};
@@ -186,7 +186,7 @@ TEST(CameraErrors, OfPlacesNameView) {
         "`view=X,Y rim.exr`");
 }
 
-// What we write is what we read: attributes of the renderer that have come along do not speak against it.
+// Files that we write can be read: attributes copied from the renderer do not contradict ours.
 TEST(CameraErrors, DoNotComeFromWhatTheOptionsReplaced) {
     Imf::Header header(64, 36);
     write_unreal(header, Pose(), "unreal/camera/FinalImage/", "unreal/camera/");

@@ -1,4 +1,4 @@
-// Headers as each renderer writes them give the camera that rendered.
+// Headers of each renderer give the camera that rendered.
 #include "io/camera/camera_headers.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Renderers, CameraOf, testing::ValuesIn(renderers().begi
                              return name;
                          });
 
-// The picture moved by an eighth of its width: in NDC the axis lies at 5/8.
+// The picture moved by an eighth of its width: in NDC the axis is at 5/8.
 TEST(PrincipalPoint, IsWhereTheMatrixSendsTheAxis) {
     for (const Ndc kind : {Ndc::standard, Ndc::y_up, Ndc::clip}) {
         Imf::Header h(64, 36);
@@ -82,10 +82,10 @@ TEST(PrincipalPoint, IsWhereTheMatrixSendsTheAxis) {
         EXPECT_NEAR(camera.principal_point->x, 0.125, 1e-6);
         EXPECT_NEAR(camera.principal_point->y, 0, 1e-6);
         EXPECT_NE(camera.found.back().find("optical axis 0.125,"), std::string::npos) << camera.found.back();
-        write_camera(h, camera); // as an LDI has it
+        write_camera(h, camera); // as in an LDI
         EXPECT_NEAR(read_camera(h).principal_point.value().x, 0.125, 1e-6);
     }
-    // Down the picture, in its widths: a quarter of the height of 64 x 36.
+    // Down in the picture, in picture widths: a quarter of the height of 64 x 36.
     Imf::Header h(64, 36);
     write_standard(h, Pose());
     Imath::M44d move;
@@ -94,7 +94,7 @@ TEST(PrincipalPoint, IsWhereTheMatrixSendsTheAxis) {
     EXPECT_NEAR(read_camera(h).principal_point.value().y, 0.25 * 36 / 64, 1e-6);
 }
 
-// A window at depth 1 that is 0.7 wide and lies 0.07 to the right of and 0.14 above the axis.
+// A window at depth 1 that is 0.7 wide, centred 0.07 to the right of the axis and 0.14 above it.
 TEST(PrincipalPoint, IsTheZeroOfTheScreenWindow) {
     Imf::Header h(64, 36);
     h.screenWindowWidth() = 0.7f;
@@ -104,7 +104,7 @@ TEST(PrincipalPoint, IsTheZeroOfTheScreenWindow) {
     EXPECT_NEAR(camera.principal_point->x, -0.1, 1e-6);
     EXPECT_NEAR(camera.principal_point->y, 0.2, 1e-6);
     write_standard(h, Pose(), Ndc::standard, 0.125);
-    EXPECT_NEAR(read_camera(h).principal_point.value().x, 0.125, 1e-6); // the matrix knows better
+    EXPECT_NEAR(read_camera(h).principal_point.value().x, 0.125, 1e-6); // the matrix is more exact
     for (const float centre : {0.0f, std::nanf("")}) {
         Imf::Header silent(64, 36);
         silent.screenWindowCenter() = {centre, 0};
@@ -112,7 +112,7 @@ TEST(PrincipalPoint, IsTheZeroOfTheScreenWindow) {
     }
 }
 
-// Rounding is no shift: nobody's pictures change for it.
+// Rounding is not a shift and changes no picture.
 TEST(PrincipalPoint, IsTheMiddleWhereNothingElseIsMeant) {
     for (const Ndc kind : {Ndc::standard, Ndc::y_up, Ndc::clip}) {
         Imf::Header h(64, 36);

@@ -52,7 +52,7 @@ TEST(CameraMetadata, EverythingComesBack) {
     EXPECT_EQ(read.pixel_filter, full_camera().pixel_filter);
 }
 
-// What a lens takes of sub-pixels has pixels.
+// The picture has pixels, even if the lens was resolved for sub-pixels.
 TEST(CameraMetadata, APictureHasNoSubpixels) {
     Imf::Header header;
     write_camera(header, full_camera());
@@ -75,7 +75,7 @@ TEST(CameraMetadata, SubpixelsThatCannotBeAreNotRead) {
     }
 }
 
-// What no lens has says nothing: a squeeze of 1e-30 would make every sample reach every tile.
+// Impossible apertures are ignored: a squeeze of 1e-30 would make every sample reach every tile.
 TEST(CameraMetadata, AnApertureThatCannotBeIsNotRead) {
     const auto looks_of = [](int blades, float ratio, float rotation) {
         Imf::Header header;
@@ -87,7 +87,7 @@ TEST(CameraMetadata, AnApertureThatCannotBeIsNotRead) {
     EXPECT_EQ(looks_of(5, 0.5f, 0).squeeze, 0.5);
     for (const float ratio : {1e-30f, 0.0f, -1.0f, 1e30f})
         EXPECT_FALSE(looks_of(5, ratio, 0).squeeze) << ratio;
-    EXPECT_EQ(looks_of(2, 1, 0).blades, 0); // Cycles takes them for none
+    EXPECT_EQ(looks_of(2, 1, 0).blades, 0); // Cycles treats them as none
     EXPECT_FALSE(looks_of(5, 1, 1e30f).rotation);
 }
 
@@ -106,7 +106,7 @@ TEST(CameraMetadata, WhatIsUnknownIsNotWritten) {
     EXPECT_EQ(header.findTypedAttribute<Imf::FloatAttribute>("pinholeFocalLength"), nullptr);
 }
 
-// The standard attribute counts in metres, we count in scene units.
+// The standard attribute is in metres, ours in scene units.
 TEST(CameraMetadata, FocusIsStoredInMetres) {
     Camera camera;
     camera.focus_distance = 250;
@@ -117,7 +117,7 @@ TEST(CameraMetadata, FocusIsStoredInMetres) {
     EXPECT_EQ(read_camera(header).focus_distance, 250);
     header.erase("sparselens:metresPerUnit");
     EXPECT_EQ(read_camera(header).focus_distance,
-              2.5); // a scene unit is a metre unless something else is said
+              2.5); // a scene unit is a metre by default
 }
 
 TEST(CameraMetadata, InfinityIsAFocusAndAnAperture) {
@@ -174,7 +174,7 @@ TEST(CameraMetadata, LensPointsEndWhereTheyCannotBeRead) {
     EXPECT_EQ(points_in("hello"), 0u);
 }
 
-// What other programs write under these names may be of any type: it is read where it is a number, and replaced.
+// Other programs may write these attributes with any type: numbers are read, and all are replaced.
 TEST(CameraMetadata, AttributesOfAnotherTypeAreReplaced) {
     Imf::Header header;
     header.insert("focus", Imf::StringAttribute("far"));
@@ -203,7 +203,7 @@ TEST(PictureWindow, IsTheDataWindowUnlessItIsSaidAndLiesInside) {
     write_picture_window(header, Imath::Box2i({0, 0}, {9, 9}));
     EXPECT_EQ(read_picture_window(header), Imath::Box2i({0, 0}, {9, 9}));
     write_picture_window(header,
-                         Imath::Box2i({0, 0}, {9, 14})); // of another file, whose data window was larger
+                         Imath::Box2i({0, 0}, {9, 14})); // from another file with a larger data window
     EXPECT_EQ(read_picture_window(header), header.dataWindow());
     write_picture_window(header, Imath::Box2i({5, 5}, {2, 2}));
     EXPECT_EQ(read_picture_window(header), header.dataWindow());

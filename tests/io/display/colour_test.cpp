@@ -11,7 +11,7 @@
 namespace sparselens {
 namespace {
 
-// One pixel of these values.
+// One pixel with these values.
 Image pixel(std::vector<Channel> channels, const std::vector<float> &values) {
     Image image(windows_of_size(1, 1), std::move(channels));
     image.values = LargeArray<float>(values.begin(), values.end());
@@ -37,7 +37,7 @@ TEST(Colour, SrgbIsTheStandards) {
     }
 }
 
-// White stays white between all linear spaces, and a round trip is none.
+// White stays white between all linear spaces, and a round trip changes nothing.
 TEST(Colour, LinearSpacesShareTheirWhite) {
     const ColourConfig config;
     for (const char *space :
@@ -53,7 +53,7 @@ TEST(Colour, LinearSpacesShareTheirWhite) {
     EXPECT_TRUE(config.between("ACEScg", "acescg").changes_nothing());
 }
 
-// ACES technical documents give AP1's primaries: Rec.709 red in ACEScg.
+// The ACES technical documents give AP1's primaries, and so Rec.709 red in ACEScg.
 TEST(Colour, RedInAcescg) {
     const ColourConfig config;
     const Image out =
@@ -131,7 +131,7 @@ TEST(Colour, WhatIsNotThereIsNamed) {
               std::string::npos);
 }
 
-// Primaries and white as renderers write them, rounded.
+// Primaries and white in the form that renderers write, rounded.
 TEST(Colour, ChromaticitiesNameALinearSpace) {
     const ColourConfig config;
     using V = Imath::V2f;
@@ -141,7 +141,7 @@ TEST(Colour, ChromaticitiesNameALinearSpace) {
     const Imf::Chromaticities odd(V(0.7f, 0.3f), V(0.2f, 0.7f), V(0.1f, 0.1f), V(0.33f, 0.33f));
     EXPECT_EQ(config.linear_space(ap1), "ACEScg");
     EXPECT_EQ(config.linear_space(ap0), "ACES2065-1");
-    EXPECT_EQ(config.linear_space({}), "Linear Rec.709"); // what a file has that says nothing
+    EXPECT_EQ(config.linear_space({}), "Linear Rec.709"); // the space of files without chromaticities
     EXPECT_EQ(config.linear_space(odd), std::nullopt);
 }
 
@@ -157,13 +157,13 @@ TEST(Colour, LinearSpacesHaveChromaticitiesByAnyOfTheirNames) {
         EXPECT_FALSE(config.chromaticities_of(name)) << name;
 }
 
-// The matrices of the configuration are those of the chromaticities that the table gives their names: white stays
-// white, and red, green and blue of the space lie on its primaries.
+// The configuration's matrices match the chromaticities in the table: white stays white, and red, green and blue of the
+// space are at its primaries.
 TEST(Colour, ChromaticitiesAreThoseOfTheMatrices) {
     const ColourConfig config;
     const Imath::M44f of_709 = Imf::RGBtoXYZ(Imf::Chromaticities(), 1);
     for (const char *name :
-         {"Linear Rec.2020", "Linear P3-D65"}) { // with the white of Rec.709: nothing is adapted
+         {"Linear Rec.2020", "Linear P3-D65"}) { // they have the white of Rec.709: no adaptation
         const ColourTransform transform = config.between(name, "Linear Rec.709");
         const Imath::M44f own = Imf::RGBtoXYZ(config.chromaticities_of(name).value(), 1);
         for (int k = 0; k < 3; ++k) {

@@ -60,7 +60,7 @@ TEST(ShownPicture, PixelsAreThoseOfTheFile) {
     const ScratchFolder scratch;
     Image image = noise(300, 70);
     for (std::size_t i = 0; i < 10'000; ++i)
-        image.values[i] = (float(i % 256) + 0.5f) / 255; // where rounding turns
+        image.values[i] = (float(i % 256) + 0.5f) / 255; // on rounding boundaries
     image.values[0] = std::numeric_limits<float>::quiet_NaN();
     image.windows.display.max.x += 3; // black beside the data window
     write_shown_picture(scratch.file("a.png"), image);
@@ -82,7 +82,7 @@ TEST(ShownPicture, PixelsHaveAlphaWhereSomethingShowsThrough) {
     EXPECT_EQ(shown_pixels("a", image).channels, 3);
 }
 
-// Files of a name that others can foretell are read and overwritten by others.
+// Others can read and overwrite files with predictable names.
 TEST(ShownPicture, NoOtherFileIsWritten) {
     const ScratchFolder scratch;
     const char *before = std::getenv("TMPDIR");

@@ -55,7 +55,7 @@ TEST(Beauty, IsALayerOnlyWhereNoColourIsOutsideOfLayers) {
     EXPECT_EQ(beauties({{"Ci.R", PixelType::uint32}, {"Ci.G"}, {"Ci.B"}}), Names()) << "ids";
 }
 
-// Blender writes the result of its compositor beside the render layers, and before them.
+// Blender writes the compositor's result beside the render layers, and before them.
 TEST(Beauty, OfSeveralItIsTheOneWithADepth) {
     std::vector<Channel> channels = layers({"Composite.Combined", "ViewLayer.Combined"});
     EXPECT_EQ(beauties(channels), (Names{"Composite.Combined", "ViewLayer.Combined"}));
@@ -64,7 +64,7 @@ TEST(Beauty, OfSeveralItIsTheOneWithADepth) {
     EXPECT_FALSE(chosen_picture(channels, "", "x.exr"));
 }
 
-// Two view layers, and what belongs to neither.
+// Two view layers, and channels that belong to neither.
 std::vector<Channel> two_pictures() {
     std::vector<Channel> channels = layers({"bg.Combined", "fg.Combined", "fg.Diffuse"});
     for (const char *name :
@@ -160,7 +160,7 @@ TEST_F(BeautyInFile, OfSeveralPicturesOneIsRead) {
         const LdiFile ldi = read_ldi(path, {.layer = name});
         EXPECT_EQ(ldi.ldi.z[0], float(find_channel(all, name + ".Depth.Z") + 1));
     }
-    for (const std::string depth : {"bg.Depth.Z", "fg.Depth.Z"}) { // the depth may be that of any picture
+    for (const std::string depth : {"bg.Depth.Z", "fg.Depth.Z"}) { // any picture's depth may be used
         const float value = float(find_channel(all, depth) + 1);
         const DepthOptions options{.picture = {.layer = "fg", .depth = depth}};
         EXPECT_EQ(read_ldi(path, options.picture).ldi.z[0], value) << depth;

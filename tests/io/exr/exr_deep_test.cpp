@@ -38,7 +38,7 @@ protected:
 
 float as_half(float value) { return float(Imath::half(value)); }
 
-// What half channels make of the colours, offsets and weights.
+// The LDI with colours, offsets and weights rounded to half.
 Ldi rounded(Ldi ldi) {
     for (std::vector<float> *values : {&ldi.dx, &ldi.dy, &ldi.weight})
         for (float &value : *values) value = as_half(value);
@@ -173,7 +173,7 @@ TEST_F(ExrDeep, IsAScanlineFileWhoseOwnStateReplacesTheOld) {
     EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("comments").value(), "kept");
 }
 
-// The channels of an LDI as a deep file of someone else would hold them, pointers for `Writer`'s frame buffer.
+// The channels of an LDI as in another program's deep file, as pointers for the frame buffer of `Writer`.
 struct ForeignDeep {
     Imf::Header header;
     std::vector<unsigned> counts;
@@ -212,7 +212,7 @@ Ldi third_party(int width, int height) {
     return ldi;
 }
 
-// Only the picture of a pyramid is read; its reduced levels, filled here with other counts, are nobody's samples.
+// Only the full size of a mipmap is read; its reduced levels, which have other sample counts here, are ignored.
 TEST_F(ExrDeep, OfMipmapsTheFullSizeIsRead) {
     Ldi ldi = third_party(50, 37);
     ForeignDeep foreign(ldi, "Z");
@@ -221,7 +221,7 @@ TEST_F(ExrDeep, OfMipmapsTheFullSizeIsRead) {
     {
         Imf::DeepTiledOutputFile file(path.c_str(), foreign.header);
         for (int level = 0; level < file.numLevels(); ++level) {
-            file.setFrameBuffer(foreign.buffer); // its corner, for the levels that are smaller
+            file.setFrameBuffer(foreign.buffer); // its corner, for the smaller levels
             file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
         }
     }
@@ -241,7 +241,7 @@ TEST_F(ExrDeep, TiledFilesAreRead) {
     expect_equal(read_ldi(path).ldi, ldi);
 }
 
-// First a flat part, then a deep one: the deep one counts.
+// First a flat part, then a deep one: the deep one is read.
 TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
     Ldi ldi = third_party(20, 10);
     ForeignDeep foreign(ldi, "depth.Z");
@@ -266,7 +266,7 @@ TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
         layers.writePixels(10);
     }
     expect_equal(read_ldi(path).ldi, ldi);
-    EXPECT_EQ(read_flat_exr(path).image.at(0, -9, 4), 0.25f); // and the flat one for who wants a flat picture
+    EXPECT_EQ(read_flat_exr(path).image.at(0, -9, 4), 0.25f); // a flat reader gets the flat part
     EXPECT_THROW(read_ldi(path, {.depth = "Z"}), Error);
 }
 
@@ -307,7 +307,7 @@ TEST_F(ExrDeep, TheDepthChannelIsFoundOrAskedFor) {
     EXPECT_EQ(read_ldi(path).ldi.z, ldi.values[0]);
     const Ldi other = read_ldi(path, {.depth = "depth.Z"}).ldi;
     EXPECT_EQ(other.z, ldi.z);
-    EXPECT_EQ(find_channel(other.channels, "Z"), npos); // two depths would be written under one name
+    EXPECT_EQ(find_channel(other.channels, "Z"), npos); // two depths would share one name
     EXPECT_TRUE(what_of<Error>([&] {
                     read_ldi(path, {.depth = "N"});
                 }).starts_with(path + ": has no channel N (`depth_channel`); its channels are "));

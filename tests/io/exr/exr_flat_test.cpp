@@ -55,7 +55,7 @@ TEST_F(ExrFlat, WindowsChannelsAndValuesComeBack) {
     EXPECT_EQ(read.values, image.values);
 }
 
-// R, G, B, A lead, whatever the order in the file (which is the alphabet's).
+// R, G, B, A come first, although the file's order is alphabetical.
 TEST_F(ExrFlat, ColourLeadsThenTheAlphabet) {
     const Image read =
         round_trip(Image(windows_of_size(1, 1), {{"Z", PixelType::float32}, {"G"}, {"a"}, {"R"}, {"A"}}));
@@ -86,7 +86,7 @@ TEST_F(ExrFlat, WhatHalfCannotHoldBecomesItsLargest) {
         EXPECT_EQ(round_trip(one_pixel(PixelType::half, large)).values[0], 65504);
         EXPECT_EQ(round_trip(one_pixel(PixelType::half, -large)).values[0], -65504);
     }
-    EXPECT_EQ(round_trip(one_pixel(PixelType::half, inf)).values[0], inf); // said, not overflown
+    EXPECT_EQ(round_trip(one_pixel(PixelType::half, inf)).values[0], inf); // infinite, not overflowed
     EXPECT_TRUE(std::isnan(round_trip(one_pixel(PixelType::half, std::nanf(""))).values[0]));
 }
 
@@ -140,7 +140,7 @@ TEST_F(ExrFlat, TiledFilesAreRead) {
     EXPECT_EQ(image.at(0, -2, 6), 41);
 }
 
-// How far from what was written a compression may bring halves and floats back, of a smooth picture in [0, 1].
+// Tolerances after compression for halves and floats of a smooth picture in [0, 1].
 struct Compression {
     const char *name;
     Imf::Compression how;
@@ -150,7 +150,7 @@ struct Compression {
 class Compressions : public ExrFlat, public testing::WithParamInterface<Compression> {};
 
 TEST_P(Compressions, AreReadScanlinesAndTilesHalvesFloatsAndIds) {
-    constexpr int width = 70, height = 45; // no multiple of any block
+    constexpr int width = 70, height = 45; // not a multiple of any block
     constexpr std::size_t pixels = std::size_t(width) * height;
     std::vector<half> halves(pixels);
     std::vector<float> floats(pixels);
@@ -158,7 +158,7 @@ TEST_P(Compressions, AreReadScanlinesAndTilesHalvesFloatsAndIds) {
     for (std::size_t i = 0; i < pixels; ++i) {
         floats[i] = 0.5f + 0.25f * std::sin(float(i % width) / 9) + 0.25f * std::cos(float(i / width) / 7);
         halves[i] = floats[i];
-        ids[i] = std::uint32_t(i) * 2654435761u; // all bits used, NaNs among them
+        ids[i] = std::uint32_t(i) * 2654435761u; // uses all bits; some are NaNs
     }
     for (const bool tiled : {false, true}) {
         Imf::Header header(width, height);
@@ -195,8 +195,8 @@ TEST_P(Compressions, AreReadScanlinesAndTilesHalvesFloatsAndIds) {
     }
 }
 
-// All that this OpenEXR has. PXR24 rounds floats to 24 bits; B44 halves in blocks of 4x4; DWA what the eye does not see, of
-// halves and floats that are colours.
+// All that this version of OpenEXR has. PXR24 rounds floats to 24 bits; B44 compresses halves in blocks of 4x4; DWA
+// removes invisible detail of halves and of colours in float.
 std::vector<Compression> all_compressions() {
     std::vector<Compression> all;
     for (const NamedCompression &method : compressions()) {
@@ -249,7 +249,7 @@ TEST_F(ExrFlat, TheOldFileSurvivesAFailure) {
     put_contents(path, "old");
     Imf::Header header;
     Image image = one_pixel(PixelType::half, 1);
-    image.channels[0].name = ""; // no name for a channel
+    image.channels[0].name = ""; // an invalid channel name
     EXPECT_THROW(write_flat_exr(path, image, header), Error);
     EXPECT_EQ(contents_of(path), "old");
     EXPECT_EQ(folder.entries(), 1u);
@@ -283,7 +283,7 @@ TEST(TakeDepth, TakesTheOneThatIsAskedFor) {
               "file of its own, else `depth_channel`; its channels are R");
 }
 
-// Another Z would be mistaken for the depth by whoever reads what we write.
+// Readers of our files would take another Z for the depth.
 TEST(TakeDepth, AnotherZIsNotCarried) {
     Image image = with_depths({{"R"}, {"Z", PixelType::float32}, {"depth.Z", PixelType::float32}});
     EXPECT_EQ(take_depth(image, "depth.Z", "f"), (std::vector<float>{4, 5}));

@@ -50,7 +50,7 @@ TEST_F(HeaderCheck, SoundHeadersPass) {
 }
 
 TEST_F(HeaderCheck, WhatIsNoExrIsNamed) {
-    EXPECT_EQ(said(""), ""); // for OpenEXR to report
+    EXPECT_EQ(said(""), ""); // OpenEXR reports it
     EXPECT_EQ(said("no picture at all"), "not an EXR file");
     const std::string what_to_do =
         " picture, and EXR is needed: render to EXR, with depth, or convert what needs no "

@@ -19,7 +19,7 @@
 namespace sparselens {
 namespace {
 
-// A header that calls its matte "things", which no rule for names knows.
+// A header that names its matte "things", which no naming rule recognises.
 Imf::Header header_of_things() {
     Imf::Header header;
     header.insert("cryptomatte/ab12cd3/name", Imf::StringAttribute("things"));
@@ -74,7 +74,7 @@ TEST_F(ExrMattes, HashesAreNotRepaired) {
     EXPECT_EQ(ids_in(opened.view.image), ids_in(read_flat_exr(path).image));
 }
 
-// A matte in a part of its own, whose header alone names it.
+// A matte in its own part, named only by that part's header.
 TEST_F(ExrMattes, OfAPartOfTheirOwn) {
     Imf::Header beauty(4, 1), things(4, 1);
     beauty.setName("rgba");

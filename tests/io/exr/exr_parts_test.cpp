@@ -22,7 +22,7 @@
 namespace sparselens {
 namespace {
 
-// One part of a file to write: flat where `ldi` has no samples' depth in `depth`.
+// One part of a file to write: flat if `depth` has no samples' depth.
 struct TestPart {
     std::string name, view;
     Ldi ldi;
@@ -82,7 +82,7 @@ protected:
         for (std::size_t i = 0; i < parts.size(); ++i) write_deep(file, int(i), parts[i]);
     }
 
-    // One row of pixels, each channel of one value; a `multiView` file where there are views.
+    // One row of pixels, each channel with one value; a `multiView` file if there are views.
     void write_flat(const std::vector<std::pair<std::string, float>> &channels,
                     const std::vector<std::string> &views) {
         Imf::Header header(3, 1);
@@ -194,7 +194,7 @@ TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
                 {"N.x", 8},
                 {"key.left.B", 9}},
                {"left", "right"});
-    // diffuse.R and N.x are of no view: the left one sees both, the right one has a diffuse.R of its own.
+    // diffuse.R and N.x belong to no view: the left view has both, the right one has its own diffuse.R.
     EXPECT_EQ(names_in(""), (Names{"R", "N.x", "Z", "diffuse.R", "key.B"}));
     EXPECT_EQ(names_in("left"), names_in(""));
     EXPECT_EQ(names_in("right"), (Names{"R", "N.x", "Z", "diffuse.R", "spec.G"}));

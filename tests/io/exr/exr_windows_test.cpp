@@ -1,4 +1,4 @@
-// Flat parts of one picture whose data windows differ: cropped elements, depth over the whole picture.
+// Flat parts of one picture with different data windows: cropped elements, depth over the whole picture.
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/open_view.h"

@@ -1,4 +1,4 @@
-// Colours stored as luminance and chroma, as OpenEXR writes them and as a renderer would beside a depth.
+// Colours stored as luminance and chroma, written by OpenEXR, and as a renderer would write them beside a depth.
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/luminance_chroma.h"
@@ -27,7 +27,7 @@ protected:
     std::string path = folder.file("yc.exr");
 };
 
-// Colours that change from pixel to pixel, of which some are saturated, in a window that does not begin at 0.
+// Colours that change from pixel to pixel, some of them saturated, in a window that does not begin at 0.
 void write_by_openexr(const std::string &path, const Imath::Box2i &data,
                       const Imf::Chromaticities *primaries) {
     const Grid grid(data);
@@ -44,7 +44,7 @@ void write_by_openexr(const std::string &path, const Imath::Box2i &data,
     file.writePixels(grid.height());
 }
 
-// As OpenEXR's own reader of such files makes them, to the bit.
+// Equals OpenEXR's own reader of such files, to the bit.
 TEST_F(LuminanceChroma, OfOpenExrIsReadAsItsReaderReadsIt) {
     const Imf::Chromaticities aces({0.713f, 0.293f}, {0.165f, 0.83f}, {0.128f, 0.044f}, {0.32168f, 0.33767f});
     for (const Imath::Box2i &data :
@@ -69,7 +69,7 @@ TEST_F(LuminanceChroma, OfOpenExrIsReadAsItsReaderReadsIt) {
         }
 }
 
-// Y, RY, BY of one colour (Rec. 709) and A, with Z in the same part or in one before.
+// Y, RY, BY of one colour (Rec. 709) and A, with Z in the same part or in an earlier one.
 TEST_F(LuminanceChroma, KeepsTheOtherChannels) {
     const std::array<float, 3> rgb{0.5f, 0.25f, 0.125f};
     const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];

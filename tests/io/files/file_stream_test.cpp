@@ -56,7 +56,7 @@ TEST_F(FileStream, ReplacesTheOldFileByANewOne) {
     fs::create_hard_link(path, second_name);
     write_file(path, "new");
     EXPECT_EQ(contents_of(path), "new");
-    EXPECT_EQ(contents_of(second_name), "old and longer"); // who has it open keeps reading the old one
+    EXPECT_EQ(contents_of(second_name), "old and longer"); // readers that have it open keep the old contents
 }
 
 TEST_F(FileStream, SeeksWithinWhatIsWritten) {
@@ -117,7 +117,7 @@ TEST_F(FileStream, WritesThroughDevices) {
     EXPECT_TRUE(S_ISCHR(info.st_mode));
 }
 
-// Bytes reach a pipe whole and in order even where the writer went back.
+// Bytes reach a pipe whole and in order even if the writer seeks back.
 TEST_F(FileStream, WritesAndReadsThroughNamedPipes) {
     const std::string pipe = folder.file("pipe"), start = "v/1\x01."; // EXR's magic number and a fifth byte
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -150,7 +150,7 @@ TEST_F(FileStream, ReadsAndSeeksInFiles) {
     EXPECT_EQ(what_of<Error>([&] { in->read(text.data(), 3); }), path + ": the file is truncated");
 }
 
-// As OpenEXR reads from version 3.3 on: beyond the end there is nothing, which is no error yet.
+// OpenEXR 3.3 and later read this way. Reading beyond the end gives nothing and is not an error yet.
 TEST_F(FileStream, PlacesAreReadWithoutSeeking) {
     put_contents(path, "0123456789");
     const std::string pipe = folder.file("pipe");

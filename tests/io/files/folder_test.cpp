@@ -13,7 +13,7 @@ TEST(MakeFolder, MakesWhatIsMissing) {
     make_folder(folder);
     EXPECT_TRUE(std::filesystem::is_directory(folder));
     put_contents(folder + "/file", "text");
-    make_folder(folder); // it is there: nothing happens
+    make_folder(folder); // it exists: nothing happens
     EXPECT_EQ(contents_of(folder + "/file"), "text");
 }
 

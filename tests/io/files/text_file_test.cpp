@@ -29,7 +29,7 @@ TEST(TextFile, MayComeThroughAPipe) {
     const ScratchFolder scratch;
     const std::string pipe = scratch.file("pipe"), text(200'000, 'x');
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    const auto before = std::signal(SIGPIPE, SIG_IGN); // of a reader that leaves early
+    const auto before = std::signal(SIGPIPE, SIG_IGN); // for a reader that leaves early
     {
         const std::jthread writer([&] { std::ofstream(pipe) << text; });
         EXPECT_EQ(read_text_file(pipe), text);
@@ -39,7 +39,7 @@ TEST(TextFile, MayComeThroughAPipe) {
               "/dev/zero: has more than 64 MB of text, which is not what is read here");
 }
 
-// A file without blocks on the disk, which takes no time to make, and would take all memory to read.
+// A sparse file, which is made at once but would take all memory to read.
 TEST(TextFile, MayNotBeOfAnySize) {
     const ScratchFolder scratch;
     const std::string path = scratch.file("long.json");

@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-// A wall of brightness 1, on which some pixels shine.
+// A wall of brightness 1 with some shining pixels.
 std::vector<CompactLamp> found(const std::function<float(int x, int y)> &shine) {
     const Grid grid(Imath::Box2i({-7, 3}, {56, 50}));
     std::vector<float> brightness;
@@ -20,7 +20,7 @@ std::vector<CompactLamp> found(const std::function<float(int x, int y)> &shine) 
 TEST(CompactLamps, AreGroupsOfBrightPixelsTheBrightestFirst) {
     const auto lamps = found([](int x, int y) {
         if (x == 20 && y == 20) return 100.0f;
-        if (x == 23 && y == 21) return 50.0f;    // no farther than lamp_gap
+        if (x == 23 && y == 21) return 50.0f;    // within lamp_gap
         if (x == 27 && y == 20) return 60.0f;    // farther
         if (x == -7 && y == 50) return 9.0f;     // in a corner
         return x == 40 && y == 40 ? 6.0f : 0.0f; // too dark
@@ -40,7 +40,7 @@ TEST(CompactLamps, AreNotLarge) {
         ASSERT_EQ(lamps.size(), size == 12 ? 1u : 0u);
         EXPECT_TRUE(lamps.empty() || lamps[0].pixels.size() == 24);
     }
-    // What is left of a large group is no lamp.
+    // The rest of a large group is not a lamp.
     EXPECT_TRUE(found([](int x, int) { return x > 30 && x < 37 ? 100.0f : 0.0f; }).empty());
 }
 

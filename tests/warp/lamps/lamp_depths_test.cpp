@@ -11,10 +11,10 @@ namespace sparselens {
 namespace {
 
 constexpr float wall = 10, lamp = 2, post = 1.5f; // depths
-constexpr double tolerance = 0.05;                // of 1 / z
+constexpr double tolerance = 0.05;                // in 1 / z
 constexpr double focal_px = 20;
 
-// A wall of brightness 1; `pixel` says what stands before it, at z 0 nothing.
+// A wall of brightness 1; `pixel` gives the object before it, with z 0 for nothing.
 View picture(const std::function<ViewPixel(int x, int y)> &pixel) {
     return make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
         const ViewPixel p = pixel(x, y);
@@ -25,7 +25,7 @@ View picture(const std::function<ViewPixel(int x, int y)> &pixel) {
 ViewPixel shining(float z, float light) { return {.z = z, .r = light, .g = light, .b = light}; }
 constexpr ViewPixel none{.z = 0};
 
-// The pixels that have another depth then.
+// The pixels whose depth changes, with the new depth.
 using Moved = std::vector<std::pair<Imath::V2i, float>>;
 Moved settled(const std::vector<View> &views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
     std::vector<ViewMapping> mappings;
@@ -51,7 +51,7 @@ TEST(LampDepths, PixelsOfASmallLampTakeTheDepthOfThoseBeside) {
     EXPECT_EQ(settled({picture(between)}), (Moved{{{10, 10}, lamp}, {{11, 10}, lamp}, {{10, 11}, lamp}}));
 }
 
-// A lamp of five pixels; its corners show a tenth of it and 0.4 of it.
+// A lamp of five pixels; its corners show a tenth and 0.4 of it.
 TEST(LampDepths, EdgesOfLargerLampsStay) {
     const auto larger = [](int x, int y) {
         if (x < 10 || x > 14 || y < 10 || y > 14) return none;
@@ -97,7 +97,7 @@ TEST(LampDepths, AStrandMayCrossTheLamp) {
     EXPECT_EQ(settled({picture(of_one_depth)}), Moved{});
 }
 
-// A second view sees the lamp beside the strand: it is three pixels farther left there, the strand four.
+// A second view sees the lamp beside the strand: there the lamp is three pixels farther left, the strand four.
 TEST(LampDepths, NoLightOfALampStaysWithTheStrandThatCrossesIt) {
     constexpr double radius = 3 * double(lamp) / focal_px;
     const std::vector<View> views{picture([](int x, int y) { return crossed(x, y); }),
@@ -115,7 +115,7 @@ TEST(LampDepths, NoLightOfALampStaysWithTheStrandThatCrossesIt) {
     EXPECT_NEAR(of_lamp, 500, 10);
 }
 
-// In a second view the lamp, which is part of the wall, is one pixel farther left, and the strand four.
+// In a second view the lamp, which is part of the wall, is one pixel farther left, and the strand four pixels.
 TEST(LampDepths, NorWithAStrandBeforeALampOfTheWall) {
     constexpr double radius = 6 / focal_px;
     const auto on_the_wall = [](int strand, int left) {
@@ -131,7 +131,7 @@ TEST(LampDepths, NorWithAStrandBeforeALampOfTheWall) {
     for (std::size_t i = 0; i < ldi.samples(); ++i) EXPECT_LE(ldi.z[i] < 1.75f ? ldi.values[0][i] : 0, 0.6f);
 }
 
-// The second view stands to the left: what lies at `lamp` is one pixel farther right there.
+// The second view is from the left: objects at the depth `lamp` are one pixel farther right there.
 TEST(LampDepths, OtherViewsTell) {
     const auto before = [](int x, int y) { return in_square(x, y) ? shining(lamp, 500) : none; };
     const auto flat = [](double light) {
@@ -144,7 +144,8 @@ TEST(LampDepths, OtherViewsTell) {
     EXPECT_EQ(settled({picture(before), picture(flat(450))}, {{0, 0}, {0, 0}}), Moved{}); // another place
 }
 
-// All views have the wall's depth. From each the lamps lie where a depth of 2 would show them; or where the wall's would.
+// All views have the wall's depth. In each view the lamps are where a depth of 2 would put them, or where the wall's
+// would.
 TEST(LampDepths, ThePlacesInAllViewsTell) {
     constexpr double step =
         double(lamp) / focal_px; // of a view: one pixel at depth 2, a fifth of one at the wall
@@ -165,9 +166,9 @@ TEST(LampDepths, ThePlacesInAllViewsTell) {
     EXPECT_EQ(
         seen(double(lamp), 5, 0),
         (Moved{{{15, 15}, lamp}, {{10, 15}, lamp}, {{15, 20}, lamp}, {{20, 15}, lamp}, {{15, 10}, lamp}}));
-    EXPECT_EQ(seen(double(lamp), 4, 0), Moved{}); // the fifth would show it on the wall, too
+    EXPECT_EQ(seen(double(lamp), 4, 0), Moved{}); // the fifth view would show it on the wall too
     EXPECT_EQ(seen(double(wall), 5, 0), Moved{});
-    EXPECT_EQ(seen(double(wall), 5, 8), Moved{}); // each lies where another would, before the wall
+    EXPECT_EQ(seen(double(wall), 5, 8), Moved{}); // each is where another would be, before the wall
 }
 
 } // namespace

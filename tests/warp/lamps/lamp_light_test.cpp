@@ -1,4 +1,4 @@
-// The light of small lamps: what a picture has of it, made from views whose pixels show it exactly.
+// The light of small lamps in a picture, from views whose pixels show it exactly.
 #include "base/random.h"
 #include "dof/lens/lens_gather.h"
 #include "support/views.h"
@@ -15,7 +15,7 @@
 namespace sparselens {
 namespace {
 
-constexpr int cell = 36, columns = 4, rows = 3; // lamps, each at another place between the pixels
+constexpr int cell = 36, columns = 4, rows = 3; // lamps, each at another sub-pixel position
 constexpr double radiance = 5000, focal_px = 100, radius = 1;
 
 // Square lamps before a wall of radiance 1.
@@ -33,7 +33,7 @@ Imath::V2d place_of(int column, int row) {
             cell * (row + 0.5) + std::fmod(0.43 * i + 0.2, 1.0)};
 }
 
-// How much of [i, i + 1] lies in an interval of that middle and length.
+// The length of [i, i + 1] inside an interval with that middle and length.
 double overlap(double middle, double length, int i) {
     const double from = std::max(middle - length / 2, double(i)), to = std::min(middle + length / 2, i + 1.0);
     return std::max(to - from, 0.0);
@@ -59,7 +59,7 @@ View view_of(const Lamps &lamps, const Imath::V2d &u) {
     });
 }
 
-// The share of each lamp's light that the picture has, out of focus by eight pixels.
+// The share of each lamp's light in the picture, out of focus by eight pixels.
 std::vector<double> shares(const Lamps &lamps) {
     std::vector<View> views;
     for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}})
@@ -101,13 +101,14 @@ TEST(LampLight, IsKeptBeforeAFarWall) {
     for (const double side : {0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0}) expect_kept(side, 5.3);
 }
 
-// Lamps in rows, of which all views have the wall's depth, may be taken for each other: one of five views then leaves a fifth of
-// the light on the wall.
+// Lamps in rows with the wall's depth in all views may be mistaken for each other: then one of five views leaves a
+// fifth of the light on the wall.
 TEST(LampLight, IsNeitherLostNorDoubledWhereLampsAreTakenForEachOther) {
     for (const double share : shares({0.4, 6.37, 6.37 - 5.3, false})) EXPECT_NEAR(share, 1, 0.2);
 }
 
-// Five views of a picture at one depth, parallax 0; what comes of an LDI that is the centre view, its lamps twice as dark.
+// Five views of a picture at one depth, parallax 0. Returns the result for an LDI that is the centre view with lamps
+// half as bright.
 Ldi kept(const std::function<ViewPixel(std::size_t view, int x, int y)> &pixel) {
     std::vector<View> views;
     const ViewMapping mapping({0, 0}, focal_px, windows_of_size(32, 32));
@@ -152,8 +153,8 @@ TEST(LampLight, IsThatOfTheViewsThatSeeAllOfIt) {
             .values[0][32 * 10 + 10];
     };
     EXPECT_NEAR(light_of([](std::size_t view) { return view > 2; }), 1000, 0.1);
-    EXPECT_EQ(light_of([](std::size_t view) { return view > 1; }), 750);  // most do not see it
-    EXPECT_EQ(light_of([](std::size_t view) { return view == 0; }), 750); // nor does the centre
+    EXPECT_EQ(light_of([](std::size_t view) { return view > 1; }), 750);  // most views do not see it
+    EXPECT_EQ(light_of([](std::size_t view) { return view == 0; }), 750); // nor does the centre view
 }
 
 TEST(LampLight, StaysWhereViewsDisagree) {

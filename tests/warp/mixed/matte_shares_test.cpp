@@ -1,4 +1,4 @@
-// Coverages of Cryptomattes where pixels become two samples, where views are averaged, and through the lens.
+// Coverages of Cryptomattes when pixels become two samples, when views are averaged, and through the lens.
 #include "deep/flatten.h"
 #include "dof/lens_mattes.h"
 #include "support/mattes.h"
@@ -15,7 +15,7 @@ namespace {
 using namespace warping;
 
 constexpr double scale = 20; // of depths 2 and 10: 8 pixels of perceptive depth apart
-constexpr int objects = 4;   // of the 6 that the pairs have room for
+constexpr int objects = 4;   // of the 6 that fit into the pairs
 
 using Pairs = std::vector<IdCoverage::Pair>;
 
@@ -49,7 +49,7 @@ double sum_in(const Image &picture, std::size_t pixel) {
     return sum;
 }
 
-// Red at depth 2 on the left, green at depth 10 on the right; column 8 is 0.4 red, and its pairs are given.
+// Red at depth 2 on the left, green at depth 10 on the right; column 8 is 0.4 red, with the given pairs.
 Ldi edge(const Pairs &mixed) {
     const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
         const float red = x < 8 ? 1 : x == 8 ? 0.4f : 0;
@@ -67,7 +67,7 @@ double coverage_in(const Ldi &ldi, float id, std::uint64_t sample) {
     return coverage_of(find_mattes(ldi.channels), id, [&](std::size_t k) { return ldi.values[k][sample]; });
 }
 
-// The colour says that red covers some 0.4 of the pixel. Whatever the pairs say, they are shared out, and none is made.
+// By its colour, red covers about 0.4 of the pixel. Any pairs are shared out, and none is created.
 TEST(MatteShares, BothSurfacesAddUpToWhatTheyCover) {
     const std::vector<Pairs> cases{{{hashed(1), 0.4}, {hashed(2), 0.6}},
                                    {{hashed(1), 0.7}, {hashed(2), 0.3}},
@@ -91,15 +91,15 @@ TEST(MatteShares, BothSurfacesAddUpToWhatTheyCover) {
     EXPECT_NEAR(coverage_in(right, hashed(2), front + 1), 1, 0.02);
 }
 
-// What no object of the matte covers is shared out like an object.
+// Coverage without an object is shared out like an object.
 TEST(MatteShares, WhatHasNoObjectTakesItsPart) {
-    const Ldi ldi = edge({{hashed(2), 0.6}}); // the red surface is of no object here
+    const Ldi ldi = edge({{hashed(2), 0.6}}); // the red surface has no object here
     const std::uint64_t front = ldi.pixel(4 * 16 + 8).front();
     EXPECT_NEAR(coverage_in(ldi, hashed(2), front), 0.0, 0.02);
     EXPECT_NEAR(coverage_in(ldi, hashed(2), front + 1), 1, 0.02);
 }
 
-// Depths and colours at random, opaque, each pixel of up to three objects that cover it all.
+// Random depths and colours, opaque. Each pixel has up to three objects that cover it fully.
 std::vector<View> views_at_random() {
     std::vector<View> views;
     for (View &view : random_views(windows_of_size(40, 24), 5)) {
@@ -125,7 +125,7 @@ TEST(MatteShares, CoveragesOfOpaqueViewsAddUpToOne) {
         EXPECT_NEAR(sum_in(ldi, i), double(ldi.values[3][i]), 1e-5);
         partial += ldi.values[3][i] < 0.9f;
     }
-    EXPECT_GT(partial, ldi.samples() / 20); // else it proves little
+    EXPECT_GT(partial, ldi.samples() / 20); // otherwise this proves little
     const Image flat = flatten(ldi);
     Progress silent;
     const Imath::Box2i &frame = ldi.windows.display;

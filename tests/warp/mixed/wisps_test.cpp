@@ -15,8 +15,8 @@ namespace {
 constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
 constexpr int size = 40;
 
-// Strands at depth 2 that cover a random share of each pixel, before a wall at depth 10 and a lamp of 4 by 4 pixels on
-// it. The depth of a pixel is that of the strands by chance, as often as they cover it.
+// Strands at depth 2 that cover a random share of each pixel, before a wall at depth 10 with a lamp of 4 by 4 pixels. A
+// pixel has the strands' depth with a probability equal to their coverage.
 struct Strands {
     float lamp = 0.8f, wall = 0.8f, strand = 0.1f;
     std::vector<float> share;
@@ -66,7 +66,8 @@ TEST(Wisps, StrandsAreKnownByDepthsThatJump) {
     }
 }
 
-// Whatever depth chance gave a pixel, the strands cover their share of it; without that, one of the two depths has all.
+// Whatever the random depth of a pixel, the strands get their share of it; without wisps, one of the two depths gets
+// everything.
 TEST(Wisps, StrandsCoverTheirShare) {
     const Strands hair(0.8f);
     const Ldi ldi = hair.separated();
@@ -84,7 +85,7 @@ TEST(Wisps, StrandsCoverTheirShare) {
             ++count;
         }
     EXPECT_GT(whole_error / count, 0.3); // a third is expected
-    EXPECT_LT(error, 0.4 * whole_error); // the purest pixels around are not quite pure
+    EXPECT_LT(error, 0.4 * whole_error); // the purest pixels nearby are not quite pure
     const Image flat = flatten(ldi);
     for (std::size_t i = 0; i < flat.values.size(); ++i)
         EXPECT_NEAR(flat.values[i], hair.view.image.values[i], 1e-5);
@@ -106,7 +107,7 @@ TEST(Wisps, LightBetweenStrandsIsTheLamps) {
                     if (ldi.z[i] < 5) of_strands += double(ldi.values[0][i]);
             }
         EXPECT_NEAR(all, before, 1e-4 * before) << seed;
-        EXPECT_LT(of_strands, 0.01 * before) << seed; // they have half of it where the depths of pixels count
+        EXPECT_LT(of_strands, 0.01 * before) << seed; // they get half of it if pixel depths decide
     }
 }
 
