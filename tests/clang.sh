@@ -1,5 +1,5 @@
 #!/bin/bash
-# What clang 14 says of the sources.
+# Checks the sources with clang 14.
 #
 #   tests/clang.sh             build everything into build-clang/, warnings as errors
 #   tests/clang.sh --tidy      clang-tidy over src and tools, findings as errors

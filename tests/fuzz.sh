@@ -1,10 +1,10 @@
 #!/bin/bash
 # Long fuzzing with libFuzzer, under AddressSanitizer and UndefinedBehaviorSanitizer.
 #
-#   tests/fuzz.sh [SECONDS [TARGET...]]     600 seconds each of all that tests/fuzz/corpus has a folder for
+#   tests/fuzz.sh [SECONDS [TARGET...]]     600 seconds for each target with a folder in tests/fuzz/corpus
 #
-# Begins with the kept corpus, tests/fuzz/corpus; what it finds new stays in build-fuzz/corpus, what fails in
-# build-fuzz/found. Needs clang-14; exit 77 without.
+# Begins with the kept corpus, tests/fuzz/corpus; new inputs go to build-fuzz/corpus, failures to build-fuzz/found.
+# Needs clang-14; exits with 77 without it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null

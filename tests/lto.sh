@@ -1,10 +1,10 @@
 #!/bin/bash
-# Everything compiled for link-time optimisation and linked once: the linker then sees what single files cannot, two
-# types, functions or variables of one name that are not the same. Any such is an error. Nothing is run.
+# Compiles everything for link-time optimisation and links it once: the linker then sees types, functions or variables
+# with one name that differ between files. Any such difference is an error. Nothing is run.
 #
 #   tests/lto.sh
 #
-# Builds in build-lto/, by GCC.
+# Builds in build-lto/, with GCC.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null

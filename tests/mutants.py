@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Puts faults into lines that were changed, one at a time, and tells which no unit test catches.
+"""Puts faults into changed lines, one at a time, and reports which of them no unit test catches.
 
     tests/mutants.py [--since COMMIT] [--seconds N] [--most N] [--build FOLDER] [FILE...]
 
-Compares with COMMIT (HEAD~20), and takes what changed in src/**/*.cpp and tools/**/*.cpp, or in each FILE all lines. First come
-the faults that tests/mutations.txt has for these files, then operators, comparisons and constants. Ends after N seconds (600)
-or N faults (30). The build stays as it is: a changed file is compiled and linked aside. Exit 1 where a fault of the list is not
-caught, or fewer than half of the others are: some faults change nothing that could be seen.
+Compares with COMMIT (HEAD~20), and uses changed lines of src/**/*.cpp and tools/**/*.cpp, or all lines of each FILE.
+First come the faults that tests/mutations.txt has for these files, then operators, comparisons and constants. Ends
+after N seconds (600) or N faults (30). The build is not modified: a changed file is compiled and linked elsewhere.
+Exits with 1 if a fault of the list is not caught, or if fewer than half of the others are: some faults change nothing
+visible.
 """
 import argparse
 import hashlib
@@ -41,7 +42,7 @@ def changed_lines(since):
 
 
 def mutants_of(line):
-    """The line with one fault each. Words in quotes and comments stay."""
+    """The line with one fault each. Quoted words and comments stay."""
     code = re.sub(r'"(\\.|[^"\\])*"|//.*', lambda m: "\0" * len(m[0]), line)
     if re.match(r"\s*(#|namespace|template|using|static_assert|throw)", code):
         return
@@ -55,7 +56,7 @@ def mutants_of(line):
 
 
 def generated(lines):
-    """(name, file, text, None) in an order that depends on the lines alone, one fault a line first."""
+    """(name, file, text, None), in an order that depends only on the lines; one fault per line first."""
     found = []
     for file, numbers in lines.items():
         text = (source / file).read_text().splitlines(keepends=True)
@@ -71,7 +72,7 @@ def generated(lines):
 
 
 def listed(lines):
-    """The faults of tests/mutations.txt in these files, but those that other tests than the unit tests catch."""
+    """The faults of tests/mutations.txt in these files, except those that tests other than the unit tests catch."""
     for row in (source / "tests/mutations.txt").read_text().splitlines():
         name, file, what, instead, *by = row.split("|") if "|" in row and row[0] != "#" else [None] * 4
         if file in lines and not re.match(r"[a-z]+\.", (by or [""])[0]):
@@ -79,7 +80,7 @@ def listed(lines):
 
 
 class Tests:
-    """The unit tests, with one file of theirs compiled anew."""
+    """The unit tests, with one of their files recompiled."""
 
     def __init__(self, build, scratch):
         self.build, self.scratch = build, scratch
@@ -87,7 +88,7 @@ class Tests:
         self.link = next(r for r in self.rules if r["output"] == "bin/sparselens-tests")["command"]
 
     def prepared(self, file, text):
-        """Whether it compiles. False, too, where the tests do not have that file."""
+        """Whether it compiles. Also False if the tests do not contain that file."""
         rule = next((r for r in self.rules if r["file"] == str(source / file) and r["output"].endswith(".o")), None)
         archive = rule and next((r["output"] for r in self.rules
                                  if r["output"].endswith(".a") and rule["output"] in r["command"].split()), None)
@@ -97,12 +98,12 @@ class Tests:
         aside.write_text(text)
         compile_ = rule["command"].replace(f"-c {source / file}", f"-iquote {(source / file).parent} -c {aside}")
         compile_ = re.sub(r" -M[FT] \S+| -MD| -Werror\b", "", compile_).replace(f"-o {rule['output']}", f"-o {object_}")
-        # The linker takes what it finds first, and leaves the archive's own out.
+        # The linker takes the first definition, and leaves out the archive's own.
         link = self.link.replace("-o bin/sparselens-tests ", f"-o {self.scratch}/tests {object_} ")
         return all(subprocess.run(c, shell=True, cwd=self.build, capture_output=True).returncode == 0 for c in (compile_, link))
 
     def failing(self, filters, limit):
-        """The first test that fails; None: none does; "no time": they did not end."""
+        """The first test that fails; None: no test does; "no time": they did not end."""
         try:
             ran = subprocess.run([self.scratch / "tests", "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={filters}"],
                                  capture_output=True, text=True, errors="replace", timeout=limit, cwd=self.build)
@@ -112,7 +113,7 @@ class Tests:
         return failed[1] if failed else "all ended early" if ran.returncode else None
 
     def beside(self, file):
-        """The suites of the test file that mirrors this one."""
+        """The suites of the test file that mirrors this file."""
         mirror = source / "tests" / re.sub(r"^(src|tools)/", "", file).replace(".cpp", "_test.cpp")
         suites = set(re.findall(r"^TEST\w*\((\w+),", mirror.read_text(), re.M)) if mirror.exists() else set()
         return ":".join(f"{s}.*:*/{s}.*" for s in sorted(suites))
@@ -133,10 +134,10 @@ def main():
                 break
             if not tests.prepared(file, text):
                 continue
-            # Those beside it are quick: where they do not end, the fault is why.
+            # The mirroring tests are quick, so if they do not end, the fault is the reason.
             first = None if filters or not tests.beside(file) else tests.failing(tests.beside(file), 600)
             by = first or tests.failing(filters or "*", max(end - time.monotonic(), 1))
-            if by == "no time" and not first:  # a fault that none ends with, or the end of what was given
+            if by == "no time" and not first:  # a fault with which no test ends, or the time is up
                 break
             print(f"{'caught' if by else 'NOT CAUGHT'}: {name}{f' ({by})' if by else ''}", flush=True)
             if filters:

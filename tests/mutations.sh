@@ -1,11 +1,11 @@
 #!/bin/bash
-# Puts deliberate faults in, one at a time, and says which tests catch each. A fault that none catches is a hole in the
-# tests. tests/mutations.txt has them.
+# Puts deliberate faults in, one at a time, and reports which tests catch each. A fault that no test catches is a gap in
+# the tests. tests/mutations.txt lists the faults.
 #
 #   tests/mutations.sh [NAME...]     all, or those of these names
 #   tests/mutations.sh --check       does each fault find its line, exactly one? Nothing is built
 #
-# Works on a copy in build-mutations/; exit 1 where a fault is not caught.
+# Works on a copy in build-mutations/; exits with 1 if a fault is not caught.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -38,7 +38,7 @@ git ls-files -z | xargs -0 cp --parents -t "$copy"
 cd "$copy"
 cmake --preset release --log-level=WARNING -DSPARSELENS_BENCHMARKS=OFF -DSPARSELENS_WERROR=OFF
 
-# build CAUGHT_BY: what those tests need; other tests than the unit tests may need anything.
+# build CAUGHT_BY: builds what those tests need; tests other than the unit tests may need anything.
 build() {
     local targets=()
     is_ctest "$1" || targets=(sparselens-tests sparselens-lab-tests dof-stress)
@@ -47,7 +47,8 @@ build() {
 ctests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')
 is_ctest() { [ -n "$1" ] && grep -qxF -e "$1" <<<"$ctests"; }
 
-# failed_units FILTER: the unit tests of that filter that fail; one that never ends, or takes the others with it, fails too.
+# failed_units FILTER: the unit tests of that filter that fail. A test that never ends, or ends the others too, counts
+# as failed.
 failed_units() {
     local code failed tests
     for tests in sparselens-tests sparselens-lab-tests; do
@@ -57,7 +58,7 @@ failed_units() {
         [ $code -eq 0 ] || echo "${failed:-$tests ends with $code}"
     done
 }
-# failing_tests CAUGHT_BY: the tests that fail. By itself the unit tests but those of the ray tracer; where none fails,
+# failing_tests CAUGHT_BY: the tests that fail. By default the unit tests except those of the ray tracer; if none fails,
 # dof-stress.
 failing_tests() {
     local failing

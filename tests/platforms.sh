@@ -1,13 +1,13 @@
 #!/bin/bash
-# All tests in another release of Debian, in a root of its own: made by debootstrap, or the one that an earlier run made.
+# Runs all tests in another release of Debian, in a root of its own made by debootstrap, or the root of an earlier run.
 #
 #   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: demo, tests, wheel, blender (all)
 #
-# Tries the last commit: demo is README's first command, tools/demo.sh; tests is its second, tests/run.sh; wheel is
-# tests/packaging/wheel.sh, with what pip makes of it; blender is tests/blender against Debian's Blender. Prints a table at
-# the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
-# update), whose mirror of Debian it takes. Roots lie in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; what the
-# steps said is in SUITE-STEP.log there. A $CCACHE_DIR is used by the builds, too.
+# Tests the last commit: demo is README's first command, tools/demo.sh; tests is its second, tests/run.sh; wheel is
+# tests/packaging/wheel.sh with pip's result; blender is tests/blender with Debian's Blender. Prints a table at the end:
+# versions, tests, skips; exits with 1 if something fails. Needs root, debootstrap, and apt's lists (apt-get update),
+# whose Debian mirror it uses. Roots are in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; the output of the
+# steps is in SUITE-STEP.log there. The builds use $CCACHE_DIR too, if set.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -26,7 +26,7 @@ for step in "${steps[@]}"; do [[ $step =~ ^(demo|tests|wheel|blender)$ ]] || fai
 roots=${SPARSELENS_ROOTS:-/var/tmp/sparselens-roots}
 root=$roots/$suite
 
-# As apt has it on this machine: the mirror, a proxy, and whether old lists are good enough.
+# Uses this machine's apt settings: the mirror, a proxy, and whether old lists are acceptable.
 make_root() {
     command -v debootstrap >/dev/null || fail "debootstrap is not installed"
     local mirror proxy=
@@ -40,7 +40,7 @@ make_root() {
     mv "$root.new" "$root"
 }
 
-# Nothing that is mounted here may reach the machine's own /dev, nor be unmounted there: so it is private.
+# Mounts are private, so that they cannot reach the machine's own /dev, and unmounting them does not affect it.
 mounted=()
 mount_at() { # FOLDER ARGUMENT...
     mkdir -p "$root$1"
@@ -69,10 +69,10 @@ cp -L /etc/resolv.conf "$root/etc/" 2>/dev/null || true
 within true 2>/dev/null || git clone -q "$source" "$root/root/sparselens"
 git -C "$root/root/sparselens" fetch -q "$source" HEAD
 git -C "$root/root/sparselens" checkout -q --detach FETCH_HEAD
-# The first packages are those that installing others and cloning needs.
+# The first packages are needed to install others and to clone.
 within 'export DEBIAN_FRONTEND=noninteractive; apt-get -q update && apt-get -q -y install --no-install-recommends ca-certificates git '"${CCACHE_DIR:+ccache}" \
     >"$root-packages.log" 2>&1 || fail "apt-get: $(grep -m 1 '^E:' "$root-packages.log")"
-cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # those of this machine's proxy, for PyPI
+cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # of this machine's proxy, for PyPI
 [ -z "${CCACHE_DIR-}" ] || mount_at /var/cache/ccache --bind "$CCACHE_DIR"
 [ ! -d "$source/../shared" ] || mount_at /root/shared --bind "$source/../shared"
 

@@ -3,9 +3,10 @@
 #
 #   tests/sanitizers.sh [--units | --quick] [asan] [tsan]   asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
 #
-# Builds in build-asan/ and build-tsan/. Left out are tests of the sources and of the package, which run nothing that
-# sanitizers could look at, and the demo; with --units all but the unit tests; with --quick, which continuous integration has
-# time for, also those of the laboratory, devices and the slowest, which repeat at large what others do with small pictures.
+# Builds in build-asan/ and build-tsan/. Leaves out tests of the sources and of the package, which run nothing for
+# sanitizers to check, and the demo; with --units everything but the unit tests; with --quick, which continuous
+# integration has time for, also those of the laboratory, devices and the slowest, which repeat on large pictures what
+# others do on small ones.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -14,9 +15,9 @@ export ASAN_OPTIONS=detect_leaks=1:abort_on_error=1:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/tsan.suppressions"
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions:print_suppressions=0"
-export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
+export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # sanitizers need more time and memory
 
-# Half of the time of all.
+# These tests take half of the total time.
 slowest='GatherRows.BlurFarWiderThanTheCellsAroundIsTheSame
 BeyondFrame.ElementsThatTheFrameCutsOffStayOpaque
 Invariants.FourTimesTheLensPointsAreCloserToTheTruth

@@ -1,9 +1,9 @@
 #!/bin/bash
-# What the last run of ctest left out, and whether it may: each line must be in tests/allowed-skips.txt.
+# Checks what the last run of ctest left out: each line must be in tests/allowed-skips.txt.
 #
 #   tests/skips.sh [BUILD_DIR]     build
 #
-# A test that leaves something out, itself or a part of it, prints a line "skipped: WHAT". ctest counts it as passed.
+# A test that is skipped, or skips a part, prints a line "skipped: WHAT". ctest counts it as passed.
 set -euo pipefail
 allowed=$(dirname "${BASH_SOURCE[0]}")/allowed-skips.txt
 log=${1:-build}/Testing/Temporary/LastTest.log

@@ -1,12 +1,14 @@
 #!/bin/bash
-# What the tests and continuous integration have no time for; for a release, or the end of a large change. Takes hours.
+# Tests that take too long for the normal tests and continuous integration; for a release, or after a large change.
+# Takes hours.
 #
 #   tests/thorough.sh [ROW...]     all, or those of: lto no-lab no-gpu no-python shared asan tsan mutations fuzz
 #
-# lto: what differs between files of one name (tests/lto.sh); no-lab: all without Embree; no-gpu, no-python, shared: every
-# test without the kernels for GPUs, without the Python module, with a shared library; asan: the unit tests under
-# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every deliberate fault; fuzz:
-# a minute of each target. Prints a table at the end; what each row said is in build-thorough/ROW.log. Exit 1 where one fails.
+# lto: differences between files with one name (tests/lto.sh); no-lab: everything without Embree; no-gpu, no-python,
+# shared: every test without the kernels for GPUs, without the Python module, with a shared library; asan: the unit
+# tests under AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every
+# deliberate fault; fuzz: a minute of each target. Prints a table at the end; each row's output is in
+# build-thorough/ROW.log. Exits with 1 if one fails.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -14,7 +16,7 @@ rows=(lto no-lab no-gpu no-python shared asan tsan mutations fuzz)
 for row; do [[ " ${rows[*]} " == *" $row "* ]] || { echo "thorough.sh: no row $row (${rows[*]})" >&2; exit 2; }; done
 [ $# -eq 0 ] || rows=("$@")
 
-# with OPTION...: everything in one folder, so that a row compiles only what its options change.
+# with OPTION...: builds all rows in one folder, so that a row compiles only what its options change.
 with() {
     cmake --preset release -B build-thorough/build --log-level=WARNING -DBUILD_SHARED_LIBS=OFF -DSPARSELENS_LAB=ON \
         -DSPARSELENS_GPU=ON -DSPARSELENS_PYTHON=ON "$@" &&

@@ -1,5 +1,5 @@
-# Once through each benchmark: all that are declared run to their end, and those that count what they work on have something to
-# work on. The times mean nothing here.
+# Runs each benchmark once: all declared ones run to their end, and those that count items have items to process. The
+# times mean nothing here.
 #   bash run.sh BIN_DIR [EXECUTABLE FOLDER LEAST]     sparselens-bench, of tests/bench, 30 at least
 . "$(dirname "$0")/../tools/check.sh"
 bench=$bin/${2-sparselens-bench} folder=${3-tests/bench}
@@ -22,7 +22,7 @@ for name in declared:
         faults.append(name + " did nothing")
     elif not name.startswith("psf_") and not b.get("items_per_second", 0) > 0:
         faults.append(name + " worked on nothing")
-# Each file of benchmarks has some: the functions that it hands over, or the names that it registers.
+# Each benchmark file has some: the functions that it passes on, or the names that it registers.
 for file in sorted(pathlib.Path(sys.argv[1]).glob("*_bench.cpp")):
     text = file.read_text()
     for name in re.findall(r"^BENCHMARK(?:_CAPTURE)?\((\w+)", text, re.M) + re.findall(r'measure\("([\w/]+)"', text):

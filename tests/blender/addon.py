@@ -1,4 +1,4 @@
-"""Runs the add-on on a scene full of settings of its own, and fails where one of them is changed afterwards.
+"""Runs the add-on on a scene with unusual settings, and fails if one of them is changed afterwards.
 
     blender -b SCENE.blend -P addon.py -- FOLDER DIR [auto]
         auto: with automatic overscan
@@ -14,7 +14,7 @@ from state import state  # noqa: E402
 
 
 class Recorder:
-    """In place of a layout: what the panel shows of the settings, and its buttons."""
+    """Replaces a layout, to record which settings and buttons the panel shows."""
 
     def __init__(self):
         self.shown = []
@@ -30,7 +30,7 @@ class Recorder:
 
 
 def draw_panel(addon):
-    """Without windows nothing draws a panel, so this does."""
+    """Draws the panel, because nothing does without windows."""
     if not addon.panel.SPARSELENS_PT_panel.is_registered:
         sys.exit("the panel is not registered")
     panel = type("Panel", (), {"layout": Recorder()})()

@@ -1,9 +1,9 @@
-"""A stand-in for `blender -b`, made of the module bpy from PyPI, so that the tests of share/blender run in other releases:
+"""Replaces `blender -b` by the module bpy from PyPI, so that the tests of share/blender run in other releases:
 
     python3.11 -m venv env && env/bin/pip install bpy==4.2.0
     tests/blender/bpy.sh env/bin/python BIN_DIR pictures.sh
 
-Takes what those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in their order.
+Accepts the options that those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in order.
 """
 
 import runpy
@@ -12,7 +12,7 @@ import traceback
 
 
 def run(words):
-    import bpy  # reads the arguments of its own
+    import bpy  # reads its own arguments
     exit_code = 0
     words = iter(words)
     for word in words:

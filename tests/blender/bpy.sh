@@ -1,5 +1,5 @@
 #!/bin/bash
-# One of the tests of this folder in the Blender that PyPI has as the module bpy, of 4.2 and later.
+# Runs tests of this folder in the Blender that PyPI offers as the module bpy, version 4.2 and later.
 #   bash bpy.sh PYTHON BIN_DIR TEST.sh [...]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -1,4 +1,4 @@
-# What the tests of share/blender share. Sourced by each of them; they are run as `bash SCRIPT BIN_DIR [...]`.
+# Shared by the tests of share/blender, which source it; they are run as `bash SCRIPT BIN_DIR [...]`.
 . "$(dirname "${BASH_SOURCE[0]}")/../tools/check.sh"
 command -v blender >/dev/null || skip "needs blender"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
@@ -9,7 +9,7 @@ views=$source_dir/share/blender/sparselens_views.py
 decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
 # better A B BY WHAT: A is at least B + BY; all in dB.
 better() { awk -v a="$1" -v b="$2" -v by="$3" 'BEGIN { exit !(a >= b + by) }' || fail "$4: $1 dB against $2, not $3 better"; }
-# alike A B BY: the two pictures differ by no more than BY dB.
+# alike A B BY: the two pictures differ by at most BY dB.
 alike() { better "$(decibels "$1" "$2")" "$3" 0 "$1 and $2"; }
 unlike() { better "$3" "$(decibels "$1" "$2")" 0 "$1 and $2 are too much alike"; }
 quietly() { "$@" >said 2>&1 || fail "$*: $(tail -n 5 said)"; }

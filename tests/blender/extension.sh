@@ -1,6 +1,7 @@
 #!/bin/bash
-# share/blender as users install it, into settings of its own: as an extension where Blender has those (4.2 and later), built and
-# checked by Blender itself; else a zip of its folder, as an add-on. Its operator then renders what the script does. A minute.
+# share/blender as users install it, into its own settings: as an extension where Blender has them (4.2 and later),
+# built and checked by Blender itself; else as an add-on from a zip of its folder. Its operator then renders the same as
+# the script. A minute.
 #   bash extension.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
 export HOME=$PWD/home XDG_CONFIG_HOME=$PWD/home/.config

@@ -1,12 +1,12 @@
 #!/bin/bash
-# What is easily done wrong in Blender, and what the script and the tools say of it. A few minutes.
+# Common mistakes in Blender, and the messages of the script and the tools about them. A few minutes.
 #   bash mistakes.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
 in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
 same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
 
-# Two view layers: a file that holds one of them says which, and of a file that holds both the tools take the one that is
-# named, with its own depth and mattes.
+# Two view layers: a file that holds one of them says which; from a file that holds both, the tools take the named one,
+# with its own depth and mattes.
 variant small layers
 in_blender layers.blend -P "$views" -- --overscan 0 -o both --samples 4 --views 2 --multilayer
 in_blender layers.blend -P "$views" -- --overscan 0 -o either --samples 4 --views 0
@@ -30,7 +30,7 @@ exits 1 blender -b layers.blend -P "$views" -- --overscan 0 -o none --layer hero
 grep -q "no view layer 'hero'; it has: back, front" stderr || fail "--layer hero: $(cat stderr)"
 echo "two view layers: each by its own depth"
 
-# A view rendered by hand with depth of field on is noticed; one without, and the script's, are not.
+# A view rendered by hand with depth of field is noticed; one without it, and the script's views, are not.
 in_blender -P "$scene" -- CYCLES 480x270 save "$PWD/large.blend"
 variant large pinhole
 lens=(--focal-length 50 --sensor-width 36 --fstop 0.5 --focus-distance 4)
@@ -43,7 +43,7 @@ grep -q 'warning: large.0001.exr: its edges out of focus are blurred.*switch dep
 if grep -v 'render more overscan' pinhole.said; then fail "a pinhole"; fi
 echo "depth of field that is on: said"
 
-# Cameras that are aimed at the focus, as the eyes of a stereo pair that toes in.
+# Cameras aimed at the focus, like the eyes of a stereo pair with toe-in.
 variant large toe_rim,pinhole
 in_blender toe_rim,pinhole.blend -P "$views" -- --overscan 0 -o toe --samples 8 --views 0
 exits 1 "$bin/ldi-warp" toe/center_L.exr toe/center_R.exr -o x.exr

@@ -1,12 +1,13 @@
 #!/bin/bash
-# Blender to picture: renders a scene with Cycles, and with EEVEE, by share/blender/sparselens_views.py, makes depth of
-# field from the views, and compares with the truth (Cycles' own depth of field; the average of many lens views of
+# Blender to picture: renders a scene with Cycles, and with EEVEE, with share/blender/sparselens_views.py, makes depth
+# of field from the views, and compares with the truth (Cycles' own depth of field; the average of many lens views of
 # EEVEE) and with the best setting of Blender's own Defocus node.
 #   bash picture.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]     480x270, 96, 24, 16 a view
 . "$(dirname "$0")/common.sh"
 size=${2:-480x270} truth_samples=${3:-96} lens_views=${4:-24} samples=${5:-16}
 
-# The script of the Defocus node is written for the compositor of Blender 3 and 4; for others there is the figure of lab/results/blender.md.
+# The script of the Defocus node is for the compositor of Blender 3 and 4; for other versions there is the figure of
+# lab/results/blender.md.
 has_node() { blender -b --python-expr 'import bpy, sys; sys.exit(bpy.app.version >= (5, 0))' >/dev/null 2>&1; }
 has_node || echo "skipped: the Defocus node, whose figure is that of Blender 3.4"
 
@@ -36,7 +37,7 @@ ours=$(decibels picture.exr truth.exr) node=$(best_node cycles truth.exr)
 echo "Cycles: $ours dB, Defocus node at best $node dB"
 better "$ours" "$node" 12 Cycles
 
-# A plan, rendered by its rectangles, several files a view.
+# A plan, rendered by its rectangles, with several files per view.
 "$bin/ldi-plan" cycles/center.exr --noise 0 -o plan.json >/dev/null
 in_blender cycles.blend -P "$views" -- --overscan 0 -o planned --plan plan.json --samples "$samples"
 "$bin/ldi-warp" cycles/center.exr planned/view_*.exr -o planned.ldi.exr
@@ -52,4 +53,4 @@ in_eevee eevee.blend -P "$views" -- --overscan 0 -o lens --views 0 --lens-views 
 defocused eevee.exr eevee/center.exr eevee/view_*.exr
 ours=$(decibels eevee.exr eevee_truth.exr) node=$(best_node eevee eevee_truth.exr)
 echo "EEVEE: $ours dB, Defocus node at best $node dB"
-better "$ours" "$node" $((lens_views >= 256 ? 8 : 4)) EEVEE # fewer views are a truth of their own noise
+better "$ours" "$node" $((lens_views >= 256 ? 8 : 4)) EEVEE # a truth of fewer views is noisy itself

@@ -1,11 +1,14 @@
-"""Presses the add-on's buttons without a window, and fails where something is not as it should be.
+"""Presses the add-on's buttons without a window, and fails if something is wrong.
 
     blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
-        render: renders the views into VIEWS; take: takes the picture; finish: finishes it; focus D, fstop N, blades N: sets the lens; frame N;
-        reload FILE.blend: saves the file as this one, and opens it; move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; refuse-finish PATTERN: finishing it is; stop: begins a render and a
-        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME: makes the frames 1 and 2;
-        compose FILE.exr: what the node group gives;
-        set NAME=VALUE: a field of the panel
+        render: renders the views into VIEWS; take: takes the picture; finish: finishes it; focus D, fstop N, blades N:
+        sets the lens; frame N;
+        reload FILE.blend: saves the file under this name, and opens it; move: moves the camera; refuse PATTERN: taking
+        the picture gives this error, on one line; refuse-finish PATTERN: finishing it does; stop: begins a render and a
+        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
+        makes frames 1 and 2;
+        compose FILE.exr: writes the output of the node group;
+        set NAME=VALUE: sets a field of the panel
 """
 
 import os
@@ -25,7 +28,7 @@ def check(true, text):
 
 
 class Unchanged:
-    """The scene is afterwards what it was."""
+    """Checks that the scene is unchanged afterwards."""
 
     def __enter__(self):
         self.before = state(bpy.context.scene)
@@ -76,7 +79,7 @@ def refuse(pattern, operator="take_picture"):
 
 
 def stop(addon):
-    """As Esc does it, which takes a window: tests/blender/window.sh presses it."""
+    """Stops as Esc does, which needs a window: tests/blender/window.sh presses it."""
     scene = bpy.context.scene
     files = sorted(os.listdir(scene.sparselens.folder))
     with Unchanged():
@@ -100,7 +103,7 @@ def stop(addon):
 
 
 def follow(addon, distance):
-    """What Blender's timer does, done by hand."""
+    """Does by hand what Blender's timer does."""
     scene = bpy.context.scene
     take()
     follower = addon.taking.Follower(addon.taking.lens_state(scene))
@@ -122,7 +125,7 @@ def follow(addon, distance):
 
 
 def compose(path):
-    """What the compositor makes of the node group alone, as an EXR."""
+    """The compositor's output for the node group alone, as an EXR."""
     check(said_by(bpy.ops.sparselens.make_nodes) == "", "no node group")
     check(said_by(bpy.ops.sparselens.make_nodes) == "", "no node group a second time")
     scene, group = bpy.context.scene, bpy.data.node_groups["Sparse lens"]

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The add-on's Take Picture, and --picture: their pictures are dof-gather's to the bit, nothing is rendered twice, the scene is as it was,
-# and what cannot be is said. Pictures of 96x54; two minutes.
+# The add-on's Take Picture, and --picture: their pictures equal dof-gather's to the bit, nothing is rendered twice, the
+# scene is unchanged, and failures are reported. Pictures of 96x54; two minutes.
 #   bash pictures.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
 PATH=$bin:$PATH
@@ -10,7 +10,7 @@ press() { # FILE.blend VIEWS ACTION...
     shift 2
     in_blender "$blend" -P "$source_dir/tests/blender/pictures.py" -- "$(dirname "$views")" "$PWD/$folder" "$@"
 }
-# by_hand VIEWS FRAME OPTION...: hand.exr of the views in this folder; FRAME is as .0001 or nothing.
+# by_hand VIEWS FRAME OPTION...: makes hand.exr from the views in this folder; FRAME is like .0001 or empty.
 by_hand() {
     local folder=$1 frame=$2
     shift 2
@@ -19,7 +19,7 @@ by_hand() {
 }
 same() { picture same "$1" hand.exr >found 2>&1 || fail "$2 ($(cat found))"; }
 
-# The panel says what the files say. A changed lens takes the same views and the same LDI.
+# The panel reports what is in the files. A changed lens uses the same views and the same LDI.
 press small.blend still refuse 'center.exr is not there: press Render Views' render take
 by_hand still ""
 same still/picture.exr "Take Picture"
@@ -45,7 +45,7 @@ same still/picture.exr "followed"
 press small.blend still stop
 echo "Take Picture: dof-gather's bits, the scene unchanged"
 
-# Finish gives what dof-finish makes by hand of the two renders, with the lens as it is now, and says what it cannot do.
+# Finish gives the same as dof-finish by hand with the two renders and the current lens, and reports what it cannot do.
 finished_by_hand() { # VIEWS FRAME RAYS_FOLDER OPTION...
     by_hand "$1" "$2" "${@:4}"
     mv hand.exr gathered.exr
@@ -60,7 +60,7 @@ press small.blend still set looks="'--cat-eye 0.7'" refuse-finish "finishing: Bl
 press small.blend still set looks="'--quality final'" finish
 echo "Finish: dof-finish's bits, the scene unchanged"
 
-# One line says why there cannot be a picture, in the tool's words where a tool failed.
+# One line says why a picture is impossible, in the tool's words if a tool failed.
 press small.blend still move refuse "camera 'Camera' has been moved or changed.*: press Render Views"
 press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
 press small.blend still set views=3 refuse "view_2.exr is not there"
@@ -73,7 +73,8 @@ press small.blend still refuse 'ldi-warp: .*view_1.exr'
 cp whole.exr still/view_1.exr
 echo "mistakes: said"
 
-# The tools: beside the add-on, then of pip, then on the PATH; a folder that is chosen is the only one.
+# The tools are searched beside the add-on, then where pip put them, then on the PATH; a chosen folder is the only one
+# searched.
 mkdir -p beside/share/sparselens beside/bin site/sparselens-9.dist-info site/bin chosen
 cp -r "$(dirname "$views")" beside/share/sparselens/blender
 printf '../site/bin/dof-gather,,\n' >site/sparselens-9.dist-info/RECORD
@@ -98,7 +99,8 @@ if (find_in x "$(dirname "$views")" /nowhere) 2>log; then fail "a chosen folder 
 grep -q "the folder '/nowhere' does not have" said || fail "a chosen folder without tools: $(tail -n 3 said)"
 echo "tools: found"
 
-# One line for frames: keys of focus and camera. A second run after a kill renders what is left, and its pictures are the same.
+# One line for frames: keys of focus and camera. A second run after a kill renders the remaining views, and its pictures
+# are the same.
 variant small keys
 variant keys lens
 one_line=(blender --python-exit-code 1 -b lens.blend -P "$views" -- --picture --frames 1-3 --samples 4 --views 2)
@@ -123,7 +125,8 @@ grep -Eq "of $((9 - $(wc -l <before))) views? rendered and $(wc -l <before) kept
 for frame in 1 2 3; do
     picture same whole/shot.000$frame.exr torn/shot.000$frame.exr >found || fail "after a kill frame $frame is another ($(cat found))"
 done
-# Keys of the lens that are changed afterwards leave the views; a wider lens, a moved camera, other samples and --again do not.
+# Keys of the lens that change afterwards keep the views; a wider lens, a moved camera, other samples and --again do
+# not.
 again() { # RENDERED EXPRESSION OPTION...
     local rendered=$1 expression=$2
     shift 2
@@ -147,7 +150,8 @@ rm kept/views/view_1.0001.exr
 again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
 echo "--picture: dof-gather's bits, and no view twice"
 
-# Pictures of one line are finished by renders through the lens, which stay as the views do while the lens is the same.
+# Pictures of one line are finished with renders through the lens, which are kept like the views while the lens is the
+# same.
 finish_line() { quietly blender --python-exit-code 1 -b lens.blend -P "$views" -- --picture --frames 1-2 --samples 4 --views 2 --finish 8 -o "$PWD/exact/shot.####.exr" "$@"; }
 finish_line
 for frame in 1 2; do
@@ -164,7 +168,7 @@ finished_by_hand film2 .0002 film2
 same film2/picture.0002.exr "Finish Frames"
 echo "--picture --finish: dof-finish's bits, and no rays twice"
 
-# The last line of the views' own run says how many there are.
+# The last line of a views-only run gives their number.
 in_blender small.blend -P "$views" -- -o narrow --samples 1 --views 1 --overscan 0
 grep -q '^sparselens_views.py: 2 views in narrow$' said || fail "the last line: $(tail -n 3 said)"
 
@@ -188,7 +192,8 @@ exits 1 blender -b layers.blend -P "$views" -- --picture -o "$PWD/layered/shot.e
 grep -q 'error: --multilayer: a picture is of one of the view layers back, front: choose it by --layer' stderr || fail "two layers: $(cat stderr)"
 echo "eyes and layers: each its picture"
 
-# Automatic overscan is that of all layers: the posts, in a layer of their own, are nearer than what the first layer shows.
+# Automatic overscan considers all layers: the posts, in a layer of their own, are nearer than everything in the first
+# layer.
 in_blender layers.blend -P "$views" -- -o overscan --samples 1 --views 0 --multilayer
 both=$(sed -n 's/.*overscan of \([0-9]*\) pixels.*/\1/p' said)
 most=0
@@ -200,7 +205,7 @@ for layer in back front; do
 done
 [ "$both" -eq "$most" ] || fail "overscan of both layers: $both, not $most"
 
-# Render Animation makes the pictures that the output settings name, and keeps what it may.
+# Render Animation makes the pictures that the output settings name, and keeps usable files.
 press lens.blend film animate "$PWD/film/shot"
 grep -q "Info: 2 pictures in $PWD/film, of 6 views rendered and 0 kept in $PWD/film" said || fail "Render Animation: $(tail -n 5 said)"
 [ "$(cd film && echo shot*)" = "shot0001.png shot0002.png" ] || fail "Render Animation wrote $(ls film)"
@@ -228,7 +233,8 @@ press lens.blend film animate "$PWD/film/shot"
 grep -q "of 6 views rendered and 0 kept" said || fail "without Keep Views: $(tail -n 5 said)"
 echo "Render Animation: the scene's output, and no view twice"
 
-# Other formats are Blender's: its output settings, its colours. Its Standard view gives dof-gather's own pictures, rounded.
+# Other formats use Blender: its output settings and its colours. Its Standard view gives dof-gather's own pictures,
+# rounded.
 quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; scene = bpy.context.scene
 scene.render.image_settings.file_format = 'PNG'; scene.view_settings.view_transform = 'Standard'" \
     -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/formats/shot"

@@ -1,8 +1,10 @@
 #!/bin/bash
-# The tests of share/blender; run by hand, for they need Blender and time.
+# The tests of share/blender; run by hand, because they need Blender and time.
 #   bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]      480x270, 96, 24, 16
-# script.sh: what the script renders; pictures.sh: its pictures, and the add-on's; window.sh: the add-on in a window;
-# extension.sh: the add-on, installed; mistakes.sh: what is easily done wrong; animation.sh: animated cameras against Cycles' own lens; picture.sh: against Blender's Defocus node. The figures of lab/results/blender.md: 480x270 512 256 64, which takes hours.
+# script.sh: the renders of the script; pictures.sh: its pictures, and the add-on's; window.sh: the add-on in a window;
+# extension.sh: the add-on, installed; mistakes.sh: common mistakes; animation.sh: animated cameras compared with
+# Cycles' own lens; picture.sh: compared with Blender's Defocus node. The figures of lab/results/blender.md: 480x270 512
+# 256 64, which takes hours.
 set -euo pipefail
 here=$(dirname "${BASH_SOURCE[0]}")
 bin=${1:?usage: bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]}

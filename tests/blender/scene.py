@@ -1,7 +1,8 @@
-"""A small scene for the tests of share/blender, and what they compare with.
+"""A small scene for the tests of share/blender, and the pictures for comparison.
 
     blender -b -P scene.py -- CYCLES|BLENDER_EEVEE WIDTHxHEIGHT save FILE.blend
-    blender -b FILE.blend -P scene.py -- CYCLES WIDTHxHEIGHT truth SAMPLES OUT.exr        the camera's own depth of field
+    blender -b FILE.blend -P scene.py -- CYCLES WIDTHxHEIGHT truth SAMPLES OUT.exr        the camera's own depth of
+    field
     blender -b FILE.blend -P scene.py -- ENGINE WIDTHxHEIGHT defocus VIEW.exr DEPTH.exr OUT_PREFIX FSTOP ...
 """
 
@@ -94,8 +95,8 @@ def truth(scene, samples, path):
 
 
 def defocus(scene, view, depth, prefix, fstops):
-    """Lets the Defocus node blur a view once for each f-stop; prints the seconds of each. `depth`: an EXR whose R, G
-    and B are depths, for the Image node does not read Z of a plain EXR."""
+    """Blurs a view with the Defocus node once for each f-stop; prints the seconds of each. `depth`: an EXR whose R, G
+    and B are depths, because the Image node does not read Z of a plain EXR."""
     scene.use_nodes = True
     tree = scene.node_tree
     tree.nodes.clear()

@@ -1,13 +1,13 @@
 #!/bin/bash
-# What share/blender/sparselens_views.py renders, on pictures of 96x54: cameras that are animated in every way, frames,
-# eyes, framing, overscan, passes, errors, and that the add-on leaves the scene as it was. A few minutes.
+# The renders of share/blender/sparselens_views.py, on pictures of 96x54: cameras animated in every way, frames, eyes,
+# framing, overscan, passes, errors, and that the add-on leaves the scene unchanged. A few minutes.
 #   bash script.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
 in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
 
-# An animated camera gives the views of one that stands still where it is at that frame: 60 dB leave room for the
-# rounding of its matrix, which moves a ray here and there over an edge; 64 samples a pixel let one ray count for little.
-# The views differ from each other: none of them was moved back.
+# An animated camera gives the same views as a still one at the position of that frame. 60 dB allow for the rounding of
+# its matrix, which moves a ray over an edge here and there; with 64 samples per pixel one ray counts little. The views
+# differ from each other: none was moved back.
 for kind in keys path track driver child marker lens; do
     variant small $kind
     in_blender $kind.blend -P "$variants" -- still 4 "$PWD/still.blend"
@@ -19,7 +19,7 @@ for kind in keys path track driver child marker lens; do
     echo "$kind: the views of a camera that stands still"
 done
 
-# The same with EEVEE, for a camera whose matrix is not rounded: at one sample a pixel, edges show every rounding.
+# The same with EEVEE, for a camera whose matrix is not rounded: with one sample per pixel, edges show all rounding.
 in_blender path.blend -P "$variants" -- eevee "$PWD/eevee.blend"
 if eevee_runs eevee; then
     in_blender eevee.blend -P "$variants" -- still 4 "$PWD/still.blend"
@@ -30,7 +30,7 @@ if eevee_runs eevee; then
     echo "EEVEE: the views of a camera that stands still"
 fi
 
-# Several frames in one process are what each of them is alone, and differ.
+# Several frames in one process equal the same frames alone, and differ from each other.
 in_blender keys.blend -P "$views" -- --overscan 0 -o range --frames 1-5x2,6 --samples 4 --views 1
 [ "$(cd range && echo *)" = "$(echo {center,view_0}.000{1,3,5,6}.exr)" ] || fail "--frames wrote $(ls range)"
 in_blender keys.blend -P "$views" -- --overscan 0 -o alone --frame 5 --samples 4 --views 1
@@ -40,8 +40,8 @@ for what in worldToCamera focus aperture pinholeFocalLength aperture_blades aper
     exrheader alone/center.exr | grep "^$what (" >/dev/null || fail "no $what in the header"
 done
 
-# What the picture shows, by Blender's own pinhole render: shift, fit, pixels that are not square, a percentage. Noise
-# of the same seed is the same, so 60 dB; with overscan every pixel has another seed, so 36 dB at 128 samples.
+# The framing, compared with Blender's own pinhole render: shift, fit, non-square pixels, a percentage. Noise with the
+# same seed is the same, so 60 dB; with overscan every pixel has another seed, so 36 dB at 128 samples.
 variant small pinhole,framing
 in_blender pinhole,framing.blend -P "$views" -- --overscan 0 -o framing --samples 128 --views 0
 in_blender pinhole,framing.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
@@ -55,7 +55,7 @@ oiiotool over/center.exr --crop 76x43+0+0 -o inside.exr
 alike inside.exr framing/center.exr 36
 echo "framing and overscan: as Blender's own picture"
 
-# --overscan auto: as many pixels as ldi-plan asks for, at each frame, in the camera's own shape of pixels.
+# --overscan auto: the same number of pixels as ldi-plan asks for, at each frame, in the camera's own pixel aspect.
 asked() { sed -n '/"overscan"/,/}/s/.*": \([0-9]*\),*$/\1/p' "$1" | sort -n | tail -n 1; }
 in_blender lens.blend -P "$views" -- --overscan 0 -o far --frames 1,4 --samples 4 --views 0
 in_blender lens.blend -P "$views" -- -o auto --frames 1,4 --samples 4 --views 1 --overscan auto
@@ -74,8 +74,8 @@ exrheader over/center.exr >header
 grep -Fq "dataWindow (type box2i): (-$(asked plan.json) -" header || fail "not $(asked plan.json): $(grep dataWindow header)"
 echo "--overscan auto: what the plan asks for"
 
-# --supersample: the views of a scene of twice the size with a quarter of the samples, which say so, and the picture of the scene's
-# size. Noise of the same seed is the same.
+# --supersample: the views equal those of a scene of twice the size with a quarter of the samples, and say so, and the
+# picture has the scene's size. Noise with the same seed is the same.
 in_blender small.blend --python-expr "import bpy; r = bpy.context.scene.render; r.resolution_x *= 2; r.resolution_y *= 2
 bpy.context.scene.cycles.filter_width = 2; bpy.ops.wm.save_as_mainfile(filepath='$PWD/large.blend')"
 in_blender small.blend -P "$views" -- --overscan 0 -o fine --samples 16 --views 1 --supersample 2
@@ -96,8 +96,8 @@ if blender --python-exit-code 1 -b small.blend -P "$views" -- --overscan 0 -o fe
 grep -q 'error: --supersample 2: 3 samples a pixel are too few' said || fail "3 samples for 4 pixels: $(tail -n 3 said)"
 echo "--supersample: the views of twice the size"
 
-# Eyes of a stereo scene, by Blender's own stereo render. The right eye has a seed of its own there: 36 dB; a wrong
-# convergence is at 31 dB and less.
+# Eyes of a stereo scene, compared with Blender's own stereo render. The right eye has its own seed there: 36 dB; a
+# wrong convergence gives 31 dB or less.
 for kind in offaxis offaxis_left parallel toe toe_left cameras; do
     variant small "pinhole,$kind"
     in_blender "pinhole,$kind.blend" -P "$views" -- --overscan 0 -o $kind --samples 128 --views 0
@@ -109,8 +109,8 @@ done
 in_blender pinhole,cameras.blend -P "$views" -- --overscan 0 -o right --samples 4 --eye right
 [ "$(cd right && echo *)" = "$(echo center_R.exr view_{0..3}_R.exr)" ] || fail "--eye right wrote $(ls right)"
 
-# All passes, Cryptomatte with its metadata too; the picture made of them is that of colour and depth alone, once
-# ldi-warp says that it takes Combined for the beauty.
+# All passes, Cryptomatte with its metadata too. The picture from them equals the one from colour and depth alone, with
+# ldi-warp reporting that it takes Combined for the beauty.
 variant small passes
 in_blender passes.blend -P "$views" -- --overscan 0 -o layers --samples 4 --multilayer
 in_blender passes.blend -P "$views" -- --overscan 0 -o plain --samples 4
@@ -132,8 +132,9 @@ defocused plain.exr plain/center.exr plain/view_*.exr
 alike layers.exr plain.exr 90
 echo "multilayer: the picture of single-layer views"
 
-# --finish: two renders of Blender's own lens with half of the samples each, and noise of their own: their mean is as near to a
-# render of twice the samples as that is to itself with another seed, and the headers name the lens that dof-finish compares.
+# --finish: two renders with Blender's own lens, with half of the samples each and independent noise. Their mean is as
+# near to a render of twice the samples as that is to itself with another seed, and the headers describe the lens that
+# dof-finish compares.
 variant small keys,blades
 in_blender keys,blades.blend -P "$views" -- -o halves --frame 3 --views 0 --samples 4 --finish 129
 [ "$(cd halves && echo *)" = "center.exr rays_1.exr rays_2.exr" ] || fail "--finish wrote $(ls halves)"
@@ -157,7 +158,7 @@ better "$(decibels finished.exr truth.0003.exr)" "$(decibels halves/gathered.exr
 grep -q 'rays_2.exr: another lens .*: 5 blades, not no blades' said || fail "--finish: blades: $(cat said)"
 echo "--finish: two renders of Blender's own lens"
 
-# Errors: what happened, on stderr, and not 0.
+# Errors: a message on stderr, and an exit code that is not 0.
 complains() {
     local code=$1 pattern=$2
     shift 2
@@ -174,7 +175,7 @@ complains 1 "No such file" small.blend -P "$views" -- --overscan 0 -o none --pla
 complains 2 "usage: blender -b" small.blend -P "$views"
 complains 2 "invalid frame range" small.blend -P "$views" -- --overscan 0 -o none --frames 1-
 complains 2 "not allowed with" small.blend -P "$views" -- --overscan 0 -o none --frames 1-2 --frame 1
-# What cannot be rendered: one line, before anything is.
+# Impossible renders: one line, before anything is rendered.
 refused() { # KIND PATTERN
     variant small "$1"
     complains 1 "^sparselens_views.py: error: .*$2" "$1.blend" -P "$views" -- --overscan 0 -o none --samples 1 --frame 6
@@ -198,7 +199,7 @@ fi
 [ -z "$(ls -A none 2>/dev/null)" ] || fail "an error left files: $(ls -A none)"
 echo "errors: said, with their exit codes"
 
-# What is rendered otherwise than the scene asks for is said once for all frames.
+# Deviations from the scene's settings are reported once for all frames.
 warned() { # KIND PATTERN
     variant small "$1"
     exits 0 blender --python-exit-code 1 -b "$1.blend" -P "$views" -- --overscan 0 -o warned --samples 1 --views 1 --frames 1-2
@@ -212,7 +213,7 @@ exits 0 blender --python-exit-code 1 -b unheld.blend -P "$views" -- --overscan 0
 if grep 'warning:' stderr; then fail "a holdout that is not rendered is warned of"; fi
 warned pinhole,region 'the render region is not used.*dof-gather --region'
 box=$(sed -nE 's/.*--region ([0-9,]+)$/\1/p' stderr)
-# The pixels of that region are those that Blender renders of it; the seed of each is another, so 36 dB.
+# The pixels of that region equal Blender's own render of it; each has another seed, so 36 dB.
 in_blender pinhole,region.blend -P "$views" -- --overscan 0 -o region --samples 128 --views 0
 in_blender pinhole,region.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
 IFS=, read -r x0 y0 x1 y1 <<<"$box"
@@ -221,7 +222,7 @@ oiiotool own.0001.exr --ch R,G,B --origin +0+0 --fullpixels -o own.exr
 alike cut.exr own.exr 36
 echo "holdouts and the render region: said"
 
-# The add-on renders the same, and leaves the scene as it was; so does installing.
+# The add-on renders the same, and leaves the scene unchanged; so does installing.
 in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$(dirname "$views")" "$PWD/addon"
 grep -q 'Warning: the render region is not used' said || fail "the add-on does not say that the region is not used: $(tail -n 5 said)"
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3

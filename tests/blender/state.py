@@ -1,10 +1,10 @@
-"""All that a scene is, to be compared before and after."""
+"""The complete state of a scene, to compare before and after."""
 
 import bpy
 
 
 def values(thing):
-    """The simple properties of a thing, and what its pointers point to."""
+    """The simple properties of a thing, and the targets of its pointers."""
     found = {}
     for prop in thing.bl_rna.properties:
         value = getattr(thing, prop.identifier)

@@ -60,7 +60,7 @@ def make_track(scene, camera):
 
 
 def make_driver(scene, camera):
-    """An expression so simple that Blender needs no leave to run scripts."""
+    """An expression so simple that Blender needs no permission to run scripts."""
     camera.driver_add("location", 0).driver.expression = "frame * 0.05"
 
 
@@ -95,13 +95,13 @@ def make_lens(scene, camera):
 
 
 def make_film(scene, camera):
-    """The wall is gone, and behind the floor's edge there is nothing."""
+    """Without the wall: behind the floor's edge there is nothing."""
     bpy.data.objects.remove(scene.objects["Plane.001"])
     scene.render.film_transparent = True
 
 
 def make_ball(scene, camera):
-    """The ball in focus alone: what the others cast on it stays."""
+    """Only the ball in focus; light and shadows from the others stay."""
     scene.render.film_transparent = True
     for thing in scene.objects:
         thing.visible_camera = thing.name == "Sphere"
@@ -112,7 +112,7 @@ def make_others(scene, camera):
 
 
 def make_framing(scene, camera):
-    """What the picture's edges depend on: shift, fit, pixels that are not square, a percentage."""
+    """Properties that move the picture's edges: shift, fit, non-square pixels, a percentage."""
     camera.data.shift_x, camera.data.shift_y = 0.06, -0.04
     camera.data.sensor_fit, camera.data.sensor_height = "VERTICAL", 20
     scene.render.pixel_aspect_x = 1.25
@@ -129,7 +129,7 @@ def make_passes(scene, camera):
 
 
 def make_layers(scene, camera):
-    """The posts in a view layer of their own, as Cycles' pictures are put together later."""
+    """The posts in their own view layer, for pictures that are combined later."""
     posts = bpy.data.collections.new("posts")
     scene.collection.children.link(posts)
     for made in list(bpy.data.objects):
@@ -192,7 +192,7 @@ def make_blades(scene, camera):
 
 
 def make_seeded(scene, camera):
-    """A seed of its own at each frame, by keys."""
+    """A seed for each frame, by keys."""
     scene.cycles.seed = 1
     scene.cycles.keyframe_insert("seed", frame=1)
 
@@ -204,7 +204,7 @@ def make_region(scene, camera):
 
 
 def make_held_collection(scene, camera):
-    """A collection that is a holdout, within one that is none."""
+    """A collection that is a holdout, within one that is not."""
     outer, held = bpy.data.collections.new("outer"), bpy.data.collections.new("held")
     scene.collection.children.link(outer)
     outer.children.link(held)
@@ -221,7 +221,7 @@ def make_held_material(scene, camera):
 
 
 def make_unheld(scene, camera):
-    """Holdouts that nothing renders: of no object, excluded, hidden."""
+    """Holdouts that are not rendered: without an object, excluded, hidden."""
     for name in "empty", "excluded":
         made = bpy.data.collections.new(name)
         scene.collection.children.link(made)
@@ -265,7 +265,7 @@ def make_eevee(scene, camera):
 
 
 def make_still(scene, frame):
-    """Puts a camera that nothing animates where the scene's is, with its lens."""
+    """Puts a camera without animation in place of the scene's, with its lens."""
     scene.frame_set(frame)
     seen = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get())
     made = bpy.data.objects.new("still", bpy.data.cameras.new("still"))

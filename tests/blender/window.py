@@ -1,4 +1,4 @@
-"""Presses the add-on's buttons in a window, as a person does, and fails where something is not as it should be.
+"""Presses the add-on's buttons in a window, as a person does, and fails if something is wrong.
 
     blender SCENE.blend -P window.py -- FOLDER VIEWS [SCREENSHOT.png]
 """
@@ -30,7 +30,7 @@ def press(operator):
 
 
 class KeyEvent(ctypes.Structure):
-    """XKeyEvent of Xlib.h, as long as an XEvent is."""
+    """XKeyEvent of Xlib.h, padded to the size of an XEvent."""
 
     _fields_ = ([("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
                  ("display", ctypes.c_void_p)]
@@ -41,7 +41,7 @@ class KeyEvent(ctypes.Structure):
 
 
 def escape():
-    """As the keyboard sends it: Blender's own event_simulate() stops no render."""
+    """A key press as the keyboard sends it: Blender's own event_simulate() does not stop a render."""
     x11, window = ctypes.CDLL("libX11.so.6"), ctypes.c_ulong
     for name in "XOpenDisplay", "XDefaultRootWindow":
         getattr(x11, name).restype = ctypes.c_void_p if name == "XOpenDisplay" else window
@@ -58,7 +58,7 @@ def escape():
 
 
 def until(true, what):
-    """Ten times what it takes on a slow machine."""
+    """Waits ten times as long as a slow machine needs."""
     began = time.time()
     while not true():
         check(time.time() - began < 200, "waited for %s" % what)
@@ -93,7 +93,7 @@ def steps(addon, folder, screenshot):
     scene.sparselens.finish = 8
     before = state(scene)
 
-    # Esc in the midst of the second view: what was rendered stays, the scene is as it was.
+    # Esc during the second view: rendered views stay, and the scene is unchanged.
     press(bpy.ops.sparselens.render_views)
     yield from until(lambda: os.path.exists(os.path.join(folder, "center.exr")) and bpy.app.is_job_running("RENDER"), "the second view")
     for other in bpy.ops.sparselens.render_views, bpy.ops.sparselens.take_picture, bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:
@@ -117,7 +117,7 @@ def steps(addon, folder, screenshot):
     check(taken() in shown(), "no image editor shows the picture")
     first = os.path.getmtime(path)
 
-    # Two renders through the lens make it exact; the lens is followed again.
+    # Two renders through the lens finish the picture; then the lens is followed again.
     press(bpy.ops.sparselens.finish)
     check(addon.taking.follower is None, "a lens is followed while it is rendered")
     yield from until(lambda: idle() and os.path.getmtime(path) > first and addon.taking.follower, "the finished picture")
@@ -125,13 +125,13 @@ def steps(addon, folder, screenshot):
     check(taken().filepath == path and taken() in shown(), "no image editor shows the finished picture")
     first = os.path.getmtime(path)
 
-    # A field that changes: a draft, and the picture.
+    # A field changes: a draft, and the picture.
     scene.camera.data.dof.focus_distance = 2
     yield from until(lambda: taken().filepath != path, "a draft")
     yield from until(lambda: taken().filepath == path and os.path.getmtime(path) > first, "the picture of another focus")
     check(": warning: " in (addon.taking.follower.message or ": warning: "), addon.taking.follower.message)
 
-    # Undo takes the image away; the next change brings it back.
+    # Undo removes the image; the next change restores it.
     with bpy.context.temp_override(window=main_window()):
         bpy.ops.ed.undo_push(message="focus")
         bpy.ops.ed.undo()
@@ -143,7 +143,7 @@ def steps(addon, folder, screenshot):
                      "the picture after undo")
     scene = bpy.context.scene
 
-    # What a tool says of a wrong look stands in the panel.
+    # A tool's message about a wrong look is shown in the panel.
     scene.sparselens.looks = "--spherical 7"
     yield from until(lambda: "--spherical" in addon.taking.follower.message, "dof-gather's own words")
     if screenshot:

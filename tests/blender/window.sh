@@ -1,5 +1,5 @@
 #!/bin/bash
-# The add-on in a window, under Xvfb: buttons are pressed, Esc too, and a field is changed. A minute.
+# The add-on in a window, under Xvfb: presses buttons and Esc, and changes a field. A minute.
 #   bash window.sh BIN_DIR [SCREENSHOT.png]
 . "$(dirname "$0")/common.sh"
 command -v xvfb-run >/dev/null || skip "needs xvfb-run (xvfb, xauth)"

@@ -1,6 +1,7 @@
-# The script of share/opencue, with a stand-in for OpenCue's Python packages that runs at once what Cuebot would start. The
-# stand-in was written with the script, from OpenCue's documentation, and knows only what the script calls: it shows that the
-# script does what it means to. That OpenCue's own packages take the job is shown by peers.sh; that a Cuebot does, by nothing here.
+# The script of share/opencue, with a stand-in for OpenCue's Python packages that runs at once what Cuebot would start.
+# The stand-in was written with the script, from OpenCue's documentation, and has only what the script calls: it shows
+# that the script does what is intended. peers.sh shows that OpenCue's own packages accept the job; nothing here shows
+# that a Cuebot does.
 . "$(dirname "$0")/../tools/check.sh"
 command -v python3 >/dev/null || skip "needs python3"
 

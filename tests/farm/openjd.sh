@@ -1,5 +1,5 @@
-# The templates of Open Job Description: what the specification allows, and, run as a session runs them, what the tools
-# make without them.
+# The templates of Open Job Description: the specification allows them, and run as in a session they give the same as
+# the tools without them.
 . "$(dirname "$0")/../tools/check.sh"
 python3 -c 'import jsonschema, yaml' 2>/dev/null || skip "needs python3-jsonschema and python3-yaml"
 farm=$source_dir/tests/farm
@@ -10,7 +10,7 @@ templates=("$source_dir"/share/openjd/*.yaml)
 templates_tool check "$farm/jobtemplate-2023-09.json" "${templates[@]}"
 templates_tool faults "$farm/jobtemplate-2023-09.json" "${templates[@]}"
 
-# Frames -1, 1, 2 and 3, of four views that are all the same.
+# Frames -1, 1, 2 and 3, with four equal views.
 PATH=$bin:$PATH
 dof-trace fence --size 48x27 --views 2 --spp 1 -o still
 mkdir 'the views'
@@ -32,7 +32,7 @@ for template in "${templates[@]}"; do
     *) [ "$tasks" -eq 8 ] || fail "$template: $tasks tasks, not 2 of 4 frames" ;;
     esac
 done
-# Options with blanks in quotes; a quote without its second is a failure, and nothing in the options is run.
+# Options with blanks in quotes; an unclosed quote is a failure, and nothing in the options is executed.
 for template in "${templates[@]}"; do
     echo '{"name": "my lens", "blades": 6}' >'my lens.json'
     rm -rf out
@@ -48,7 +48,7 @@ done
 rm -rf out && templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \
     LensOptions='--focus-distance 3 --fstop 1'
 
-# A task that runs again makes what is missing and leaves the rest alone.
+# A task that runs again makes missing files and keeps the rest.
 rm out/picture.0002.exr
 before=$(ls -i out)
 templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \

@@ -1,6 +1,6 @@
 """Checks templates of Open Job Description, and runs them as a session would.
 
-    openjd_template.py check SCHEMA TEMPLATE...       are they what the schema and the rules below allow?
+    openjd_template.py check SCHEMA TEMPLATE...       do the schema and the rules below allow them?
     openjd_template.py faults SCHEMA TEMPLATE...      does the check find a fault of every kind put into them?
     openjd_template.py run TEMPLATE FOLDER NAME=VALUE...    run all tasks, with the parameters' values
 
@@ -44,7 +44,7 @@ def expect(value, known, where):
 
 
 def longest(text, parameters):
-    """The characters of a format string whose parameters are as long as they may be: 1024, unless they say less."""
+    """The largest length of a format string: parameters have 1024 characters, unless they say less."""
     most = {f"{kind}.{p['name']}": p.get("maxLength", 1024) for p in parameters for kind in ("Param", "RawParam")}
     return len(REFERENCE.sub("", text)) + sum(most[name] for name in references(text))
 
@@ -60,7 +60,7 @@ def check_parameter(parameter):
 
 
 def check_step(step, earlier, job, raw, extensions):
-    """Scopes of values, dependencies, requirements, and what an extension brings."""
+    """Checks scopes of values, dependencies, requirements, and features of extensions."""
     for dependency in step.get("dependencies", []):
         if dependency["dependsOn"] not in earlier:
             raise ValueError(f"{step['name']} depends on {dependency['dependsOn']}, which is no other step before it")
@@ -87,7 +87,7 @@ def check(template, schema):
     unique((parameter["name"] for parameter in parameters), "parameters")
     for parameter in parameters:
         check_parameter(parameter)
-    # Values of PATH parameters are known where a script runs: paths are mapped there.
+    # Values of PATH parameters are available where a script runs, because paths are mapped there.
     raw = {f"RawParam.{p['name']}" for p in parameters} | {f"Param.{p['name']}" for p in parameters if p["type"] != "PATH"}
     job = {f"Param.{p['name']}" for p in parameters}
     expect(template["name"], raw, "name")
@@ -99,7 +99,7 @@ def check(template, schema):
 
 
 def faults():
-    """Faults to put into a template: what each is, and a function that does it."""
+    """Faults to put into a template: a description of each, and a function that applies it."""
     def step(t):
         return t["steps"][1]
 
@@ -164,7 +164,7 @@ def resolve(text, values):
 
 
 def frames(text):
-    """The numbers of a range expression, ascending."""
+    """The numbers of a range expression, in ascending order."""
     numbers = set()
     for part in text.split(","):
         first, last, skip = re.fullmatch(r"\s*(-?\d+)(?:\s*-\s*(-?\d+))?(?::(\d+))?\s*", part).groups()

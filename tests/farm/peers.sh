@@ -1,5 +1,6 @@
-# The templates of share/openjd by the specification's own tool, and the script of share/opencue by OpenCue's own Python packages:
-# from PyPI, in a virtual environment. Of OpenCue all is real but for the server: the job is built and written as it would be sent.
+# The templates of share/openjd with the specification's own tool, and the script of share/opencue with OpenCue's own
+# Python packages, from PyPI in a virtual environment. For OpenCue all is real except the server: the job is built and
+# written in the form in which it would be sent.
 . "$(dirname "$0")/../tools/check.sh"
 python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
 python3 -m venv peers
@@ -19,7 +20,7 @@ for template in "$source_dir"/share/openjd/*.yaml; do
     exits 0 openjd run "$template" --extensions TASK_CHUNKING --step gather --run-dependencies -p Views="$PWD/views" \
         -p Output="$PWD/out" -p Frames=1-12 -p LensOptions='--focus-distance 3'
     for number in 00{01..12}; do cmp out/picture.$number.exr expected.exr || fail "$template: frame $number"; done
-    # A list of frames of more than 128 characters is no part of the job's name.
+    # A list of frames of more than 128 characters does not become part of the job's name.
     exits 0 openjd run "$template" --extensions TASK_CHUNKING --step gather --run-dependencies -p Views="$PWD/views" \
         -p Output="$PWD/out" -p Frames="$(for n in {1..11}; do printf '%s-%s:1000000,' $n $n; done)12"
 done

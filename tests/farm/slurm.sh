@@ -1,8 +1,8 @@
 # The scripts of share/slurm on a real Slurm: munged, slurmctld and two slurmd on the loopback address, in the scratch
-# folder. 12 frames; a node is killed in the middle of a task; the pictures are those of the tools without Slurm.
+# folder. 12 frames; a node is killed in the middle of a task; the pictures equal those of the tools without Slurm.
 . "$(dirname "$0")/../tools/check.sh"
 
-# What submit.sh asks of sbatch, by a stand-in: a % of the folder stands for itself in the names of logs.
+# The arguments of submit.sh for sbatch, checked with a stand-in: a % in the folder is kept in the names of logs.
 mkdir stand-in
 printf '%s\n' '#!/bin/sh' 'echo "$@" >>asked' 'echo 7' >stand-in/sbatch
 chmod 755 stand-in/sbatch
@@ -15,10 +15,10 @@ PATH=$PATH:/usr/sbin:/sbin
 for program in munged slurmctld slurmd sbatch; do
     command -v $program >/dev/null || skip "needs Slurm (slurmctld, slurmd, slurm-client, munge): no $program"
 done
-chmod 755 "$scratch" # munged wants its socket where all may go
-declare -A daemons   # by name: the process
+chmod 755 "$scratch" # munged wants its socket to be reachable by all users
+declare -A daemons   # name -> process
 
-processes=           # of the task that was stopped
+processes=           # of the stopped task
 
 stop_all() {
     # shellcheck disable=SC2086
@@ -28,12 +28,12 @@ stop_all() {
 }
 trap stop_all EXIT
 
-# start NAME COMMAND...: in the background, its messages in NAME.log.
+# start NAME COMMAND...: runs it in the background, with messages in NAME.log.
 start() {
     "${@:2}" >"$1.log" 2>&1 </dev/null &
     daemons[$1]=$!
 }
-# until_true SECONDS COMMAND...: the command succeeds in this time, ten times what it usually takes or more.
+# until_true SECONDS COMMAND...: the command must succeed within this time, at least ten times what it usually takes.
 until_true() {
     local end=$((SECONDS + $1))
     while ! "${@:2}" >/dev/null 2>&1; do
@@ -42,7 +42,7 @@ until_true() {
     done
 }
 
-# Newer ones are told to do without cgroups. Slurm 22.05 starts no node without them, whatever its plugins.
+# Newer versions are told not to use cgroups. Slurm 22.05 starts no node without them, whatever its plugins.
 cgroups=CgroupPlugin=disabled
 if [ "$(slurmctld -V | sed -E 's/[^0-9]*([0-9]+).*/\1/')" -lt 23 ]; then
     [ -e /sys/fs/cgroup/cgroup.controllers ] || [ -d /sys/fs/cgroup/freezer ] ||
@@ -104,7 +104,7 @@ done
 exits 0 "$bin/ldi-warp" views/center.####.exr views/view_0.####.exr views/view_1.####.exr -o expected/ldi.####.exr --frames 1-12
 exits 0 "$bin/dof-gather" expected/ldi.####.exr -o expected/picture.####.exr "${lens[@]}" --frames 1-12
 
-# The tools as the tasks find them. The first time, frame 5 stops in the middle of ldi-warp, and says where it is.
+# Puts the tools in the tasks' PATH. The first time, frame 5 stops in the middle of ldi-warp, and reports its node.
 mkdir path
 ln -s "$bin/dof-gather" path
 cat >path/ldi-warp <<END
@@ -119,7 +119,7 @@ END
 chmod +x path/ldi-warp
 read -r warp gather <<<"$(PATH=$scratch/path:$PATH "$source_dir/share/slurm/submit.sh" 1-12 "$scratch/views" "$scratch/out" "${lens[@]}")"
 
-# --- The node of frame 5 dies, with all that runs on it ---
+# --- The node of frame 5 dies, with everything that runs on it ---
 until_true 300 test -e stopped || fail "frame 5 does not begin: $(squeue; cat out/*.log)"
 read -r node processes <stopped
 [ ! -e out/ldi.0005.exr ] || fail "frame 5 is there before it is made"
@@ -129,15 +129,15 @@ wait "${daemons[$node]}" 2>/dev/null || true
 unset "daemons[$node]"
 processes=
 echo "killed $node after $SECONDS s"
-# As an operator does. What a job of share/slurm does when its node is gone is tested here; that Slurm notices by itself,
-# after half a minute, is Slurm's own affair.
+# As an operator would do. This tests what a job of share/slurm does when its node is gone; that Slurm itself notices,
+# after half a minute, is not tested.
 set_down() { scontrol update NodeName="$node" State=DOWN Reason=killed; }
 set_down
 down() { sinfo -h -n "$node" -o %T | grep -q '^down'; }
 until_true 100 down || fail "Slurm does not see that $node is gone: $(sinfo)"
 echo "Slurm knows after $SECONDS s"
 
-# Said again, as Slurm 24 waits for ever for a task that was given to the node as it died.
+# Repeated, because Slurm 24 waits for ever for a task that was given to the node while it died.
 done_all() { set_down && [ -z "$(squeue -h)" ]; }
 until_true 600 done_all || fail "it does not end: $(squeue; tail -n 20 slurmctld.log)"
 echo "all is done after $SECONDS s"

@@ -1,5 +1,5 @@
-# The Debian packages that cpack makes: lintian finds no errors, they install into an empty root whose dpkg knows what the
-# host has installed, the tools run from there, and a program builds with the library from there.
+# The Debian packages made by cpack: lintian finds no errors, they install into an empty root with the host's list of
+# installed packages, the tools run from there, and a program builds with the library from there.
 #   bash debian.sh BIN_DIR BUILD_DIR
 . "$(dirname "$0")/../tools/check.sh"
 build=$(cd "$2" && pwd)
@@ -44,7 +44,7 @@ for script in slurm/submit.sh openjd/template.yaml opencue/submit.py blender/spa
     [ -s "$root/usr/share/sparselens/$script" ] || fail "$script is in no package"
 done
 
-# The tools: in the root itself, with the libraries that they are linked with; else from there, with the host's.
+# Runs the tools: inside the root, with the libraries that they are linked with; else from there, with the host's.
 mkdir "$root/work"
 if [ "$(id -u)" -eq 0 ] && chroot / true 2>/dev/null; then
     ldd "$root"/usr/bin/* | grep -oE '/[^ :]+' | sort -u | while read -r library; do
@@ -67,7 +67,7 @@ cmp picture.exr "$root/work/picture.exr" || fail "the installed tools make anoth
 exits 0 env -i "$root/usr/bin/dof-gather" ldi.exr -o picture.png # by the module in /usr/lib/sparselens, with the host's libraries
 [ -s picture.png ] || fail "no PNG"
 
-# The Python module, from the folder in which Debian's Python looks.
+# The Python module, found in the folder where Debian's Python searches.
 if [[ " ${names[*]} " == *' python3-sparselens '* ]]; then
     python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$build/CMakeCache.txt")
     module=$root/usr/lib/python3/dist-packages
@@ -83,7 +83,7 @@ END
     cmp picture.png python.png || fail "the installed module writes another PNG"
 fi
 
-# A program with the library from the root.
+# A program built with the library from the root.
 mkdir consumer
 readme_block cpp docs/library.md >consumer/pull-focus.cpp
 {

@@ -1,5 +1,5 @@
 # Installs the build into a scratch prefix, builds the example of docs/library.md against it with find_package, and runs
-# that: it must give what the installed dof-gather gives, in eight lines at most, and without Embree. Every installed
+# it: it must give the same as the installed dof-gather, in at most eight lines, and without Embree. Every installed
 # header compiles on its own, without warnings, from that one folder.
 #   bash install.sh BIN_DIR BUILD_DIR COMPILER
 . "$(dirname "$0")/../tools/check.sh"
@@ -39,10 +39,10 @@ logged cmake -S consumer -B consumer/build -G Ninja -DCMAKE_CXX_COMPILER="$compi
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS=-ffp-contract=off -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 logged cmake --build consumer/build -j 2
 
-# Each header alone, as CMake compiles the example, but with our warnings: the library's folder is no system's here. A header
-# that a source of the library or another header begins with has been compiled by itself there, unless the build puts something before
-# all sources; installed headers find each other as they did there, by relative paths (tests/scripts/includes.sh). All together show
-# that they do.
+# Each header alone, compiled like the example but with our warnings: here the library's folder is not a system folder.
+# A header that a source of the library or another header includes first was already compiled by itself there, unless
+# the build puts something before all sources. Installed headers find each other in the same way, by relative paths
+# (tests/scripts/includes.sh). Compiling all of them together shows it.
 compile=$(sed -nE 's/^ *"command": "(.*) -o [^ ]+ -c [^ ]*pull-focus\.cpp",?$/\1/p' consumer/build/compile_commands.json | head -n 1)
 compile="${compile//-isystem $prefix\/include/-I$prefix/include} -fsyntax-only -x c++ -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 [[ $compile == *"-I$prefix/include"* ]] || fail "the example is compiled without the installed headers: $compile"
@@ -75,11 +75,11 @@ logged consumer/build/pull-focus
 logged "$prefix/bin/dof-gather" fence.ldi.exr --focus-distance 3.4 -o expected.exr
 logged picture same expected.exr focus-at-3.4.exr
 
-# OpenImageIO is loaded for the pictures that need it, from beside the tools, and for no others.
+# OpenImageIO is loaded from beside the tools, and only for pictures that need it.
 logged "$prefix/bin/dof-gather" fence.ldi.exr -o shown.png
 logged oiiotool --info shown.png
 
-# The Python module gives the same from where it is installed, if it is built.
+# The installed Python module gives the same, if it is built.
 module=$(find "$prefix" -name '_sparselens*.so')
 if grep -q '^SPARSELENS_PYTHON:BOOL=ON$' "$build/CMakeCache.txt"; then
     [ -n "$module" ] || fail "the Python module is not installed"

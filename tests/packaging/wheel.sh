@@ -1,9 +1,9 @@
 #!/bin/bash
-# The wheel that pyproject.toml describes: it holds the module and the tools and nothing of the laboratory, and in a virtual environment
-# that has no compiler both work as those of the build do. Not one of ctest's tests, as it compiles the library again, without optimisation,
-# into build-wheel/test: 7 CPU minutes the first time.
+# The wheel that pyproject.toml describes: it holds the module and the tools and nothing of the laboratory, and in a
+# virtual environment without a compiler both work as in the build. Not one of ctest's tests, because it compiles the
+# library again, without optimisation, into build-wheel/test: 7 CPU minutes the first time.
 #   bash wheel.sh BIN_DIR [PYTHON]
-# The build backend, scikit-build-core, is Debian's package where there is one (Debian 13 and later), else PyPI's.
+# The build backend, scikit-build-core, is Debian's package if there is one (Debian 13 and later), else PyPI's.
 . "$(dirname "$0")/../tools/check.sh"
 python=${2:-/usr/bin/python3}
 "$python" -c 'import ensurepip, numpy' 2>/dev/null || skip "needs python3-venv and python3-numpy"
@@ -28,7 +28,8 @@ for script in sparselens_views.py sparselens_blender/__init__.py; do
     grep -q "/share/sparselens/blender/$script " list || fail "the Blender add-on lacks $script"
 done
 
-# Where it is used: no compiler is there, and no other file of the build. Both tools and module are found as in any environment.
+# The wheel is used without a compiler and without other files of the build. Tools and module are found as in any
+# environment.
 "$python" -m venv --system-site-packages --without-pip used
 logged build/bin/python "${pip[@]}" --python used/bin/python install --no-index --no-deps "${wheels[0]}"
 used() { env -i PATH="$scratch/used/bin" HOME="$scratch" SPARSELENS_NO_HISTORY=1 "$@"; }
@@ -64,7 +65,7 @@ cmp tool.exr build.exr || fail "the wheel makes another picture than the build"
 exits 0 used dof-gather ldi.exr -o tool.png
 cmp tool.png python.png || fail "the module and the tool of the wheel write different PNGs"
 
-# An array library that it cannot read is refused (pybind11 before 2.12).
+# The module refuses an array library that it cannot read (pybind11 before 2.12).
 mkdir numpy2
 echo '__version__ = "2.0.0"' >numpy2/numpy.py
 if grep -q 'knows numpy 1 alone' used/lib/python3*/site-packages/sparselens/_sparselens*.so; then
@@ -72,7 +73,7 @@ if grep -q 'knows numpy 1 alone' used/lib/python3*/site-packages/sparselens/_spa
     grep -q 'ImportError: .*install numpy 1' stderr || fail "takes numpy 2: $(tail -n 1 stderr)"
 fi
 
-# Where a library is missing that it was linked with, it says what to do.
+# If a linked library is missing, a message says what to do.
 module=$(echo used/lib/python3*/site-packages/sparselens/_sparselens*.so)
 sed -i 's/libtbb\.so\./libtbc.so./g' "$module"
 exits 1 used python -c 'import sparselens'

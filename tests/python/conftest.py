@@ -1,4 +1,4 @@
-"""What the tests share: the views of the scene fence, and the tools that they are compared with."""
+"""Shared by the tests: the views of the scene fence, and the tools for comparison."""
 import os
 import pathlib
 import subprocess
@@ -9,7 +9,7 @@ import sparselens
 
 
 def pytest_terminal_summary(terminalreporter):
-    """A line for each test that was skipped, as tests/skips.sh reads them."""
+    """Prints a line for each skipped test, which tests/skips.sh reads."""
     for report in terminalreporter.stats.get("skipped", []):
         terminalreporter.line(f"skipped: {report.nodeid}: {report.longrepr[2]}")
 

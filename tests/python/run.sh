@@ -1,5 +1,5 @@
-# The Python module: its tests in pytest, the example of docs/python.md and the script of share/python. Skipped where
-# that Python lacks pytest or numpy.
+# The Python module: its tests in pytest, the example of docs/python.md and the script of share/python. Skipped if that
+# Python lacks pytest or numpy.
 #   bash run.sh BIN_DIR MODULE_DIR PYTHON
 . "$(dirname "$0")/../tools/check.sh"
 python=$3

@@ -1,4 +1,4 @@
-"""numpy arrays: what they hold, whose memory they look into, and what is refused."""
+"""numpy arrays: their contents, the memory they share, and which arrays are refused."""
 import numpy
 import pytest
 import sparselens

@@ -10,7 +10,7 @@ import sparselens
 
 
 def saved(folder, what):
-    """The bytes of the file that it is written to."""
+    """The bytes of the file written from it."""
     sparselens.write(folder / "python.exr", what)
     return (folder / "python.exr").read_bytes()
 
@@ -32,7 +32,7 @@ def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
 
 
 def test_warp_denoised(names, views, tool, tmp_path):
-    """Here the denoiser is a mean over a square."""
+    """The denoiser here is a mean over a square."""
     denoised = []
     for k, name in enumerate(names):
         denoised.append(tmp_path / f"denoised_{k}.exr")
@@ -56,7 +56,8 @@ def test_warp_denoised(names, views, tool, tmp_path):
 
 
 def on_device(verb, *arguments, **keywords):
-    """By the device in software; skipped where there is none. That it failed and the CPU took over is only a warning."""
+    """With the software device; skipped if there is none. If the device fails and the CPU takes over, there is only a
+    warning."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -160,7 +161,7 @@ def test_gather(clustered, tool, tmp_path, keywords):
 
 
 def test_gather_sub_pixels(views, names, tool, tmp_path):
-    """A pixel of the picture is 5 x 5 of the views: region and focus pixel count the picture's."""
+    """A pixel of the picture is 5 x 5 pixels of the views: region and focus pixel count the picture's pixels."""
     keywords = {"supersample": 5, "pixel_filter": "blackman-harris", "region": (5, 2, 20, 12), "focus_pixel": (16, 9)}
     warped = tmp_path / "warped.exr"
     tool("ldi-warp", *names, "--supersample", 5, "-o", warped)
@@ -172,7 +173,7 @@ def test_gather_sub_pixels(views, names, tool, tmp_path):
 
 
 def test_missing_overscan_is_warned_of():
-    """A lamp at the border, whose disc is 4.7 pixels across, and none."""
+    """A lamp at the border, with a disc 4.7 pixels across, and no lamp there."""
     for lamp in (7 * 40, 15 * 40 + 20):
         light = numpy.full(1200, 0.5, numpy.float32)
         light[lamp] = 50
@@ -218,7 +219,7 @@ def test_write_for_the_screen(clustered, tool, tmp_path):
 
 
 def test_notebook(clustered, tmp_path):
-    """What a notebook shows is the file for the screen; what has no colours is text there."""
+    """A notebook shows the file for the screen; a picture without colours is shown as text."""
     picture = sparselens.gather(sparselens.open_ldi(clustered))
     sparselens.write(tmp_path / "shown.png", picture)
     assert picture._repr_png_() == (tmp_path / "shown.png").read_bytes()

@@ -1,4 +1,4 @@
-"""share/python/hidden.py on a small picture: every row is there, and what is known beats what is guessed."""
+"""share/python/hidden.py on a small picture: every row exists, and known surfaces beat guessed ones."""
 import pathlib
 import shutil
 import subprocess

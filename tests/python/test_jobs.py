@@ -50,7 +50,7 @@ def test_exception_in_progress_ends_the_work(clustered):
 
 @pytest.fixture
 def ctrl_c():
-    """Python's own handler of Ctrl-C, which it leaves out where SIGINT is ignored, as it is in what a shell runs in the background."""
+    """Sets Python's own Ctrl-C handler, which is missing if SIGINT is ignored, as in background jobs of a shell."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -58,7 +58,8 @@ def ctrl_c():
 
 @pytest.mark.filterwarnings("ignore:the aperture is larger")
 def test_interrupt_ends_the_work(views, ctrl_c):
-    """As Ctrl-C does, once the work has begun; the thread waits for that, not for a time. Uninterrupted, it takes half a minute of a core."""
+    """Acts like Ctrl-C after the work has begun; the thread waits for that, not for a time. Uninterrupted, it takes
+    half a minute of a core."""
     ldi, said, begun = sparselens.warp(views), [], threading.Event()
 
     def tell(_, percent):
@@ -80,7 +81,7 @@ def test_interrupt_ends_the_work(views, ctrl_c):
 
 @pytest.fixture
 def lock_kept():
-    """The interpreter takes its lock from nobody: another thread runs only where the one that has it lets it go."""
+    """The interpreter never takes its lock away: another thread runs only if the holder releases it."""
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e6)
     yield
@@ -88,7 +89,7 @@ def lock_kept():
 
 
 def test_others_run_meanwhile(clustered, lock_kept):
-    """While gather works, not only where it begins or ends."""
+    """During gather, not only at its begin or end."""
     ldi, said, seen, started, done = sparselens.open_ldi(clustered), [], [], threading.Event(), threading.Event()
 
     def tick():
@@ -99,7 +100,7 @@ def test_others_run_meanwhile(clustered, lock_kept):
     other = threading.Thread(target=tick)
     other.start()
     started.wait()
-    # Again where the machine was too busy to run the other thread in time: with the lock kept, it never runs.
+    # Repeated if the machine was too busy to run the other thread in time. If the lock were kept, it would never run.
     for _ in range(20):
         said.clear()
         sparselens.gather(ldi, lens_samples=512, progress=lambda _, percent: said.append(percent))
@@ -111,7 +112,7 @@ def test_others_run_meanwhile(clustered, lock_kept):
 
 
 def test_gathers_at_once(clustered):
-    """One LDI may be gathered by several threads."""
+    """Several threads may gather one LDI."""
     ldi = sparselens.open_ldi(clustered)
     alone, found = sparselens.gather(ldi, focus_distance=2.5), []
     threads = [threading.Thread(target=lambda: found.append(sparselens.gather(ldi, focus_distance=2.5)))

@@ -1,4 +1,5 @@
-"""Files of other programs: names of colours, depth in a file of its own, unpremultiplied colours; tiles, and the lens of a picture."""
+"""Files of other programs: names of colours, depth in a separate file, unpremultiplied colours; tiles, and the lens of
+a picture."""
 import numpy
 import pytest
 import sparselens
@@ -16,7 +17,7 @@ def soft():
 
 
 def channels_in(path):
-    """By their names in the file's list of channels."""
+    """The channel names in the order of the file's list."""
     listed = path.read_bytes().split(b"channels\0chlist\0")[1].split(b"compression\0")[0]
     return [name for name in PLAIN + NUKE if b"\0" + name.encode() + b"\0" in listed]
 

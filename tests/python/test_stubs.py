@@ -1,4 +1,4 @@
-"""The stubs and help(): complete, and true of the module."""
+"""The stubs and help() are complete, and match the module."""
 import ast
 import inspect
 import pathlib
@@ -58,7 +58,7 @@ def stub_of(name):
 
 @pytest.mark.parametrize("name", [n for n in sparselens.__all__ if inspect.isbuiltin(getattr(sparselens, n))])
 def test_help(name):
-    """help() begins with the signature, which is that of the stubs."""
+    """help() begins with the signature from the stubs."""
     function = getattr(sparselens, name)
     named = list(inspect.signature(function).parameters)
     assert named == stub_of(name)
@@ -75,10 +75,10 @@ FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [
 
 @pytest.mark.parametrize("name", [n for n in sparselens.__all__ if inspect.isbuiltin(getattr(sparselens, n))])
 def test_keywords(name):
-    """A function takes the keywords that its stub has."""
+    """A function accepts the keywords of its stub."""
     first = FIRST.get(name, [LDI])
     for keyword in stub_of(name)[len(first):]:
-        if keyword == "masks":  # which a Plan alone has
+        if keyword == "masks":  # only a Plan has it
             continue
         with pytest.raises(TypeError, match=f"^{keyword}: must be "):
             getattr(sparselens, name)(*first, **{keyword: object()})

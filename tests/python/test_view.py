@@ -1,4 +1,4 @@
-"""sparselens.view(): the same server as dof-view's, of an Ldi and of a file."""
+"""sparselens.view(): the same server as dof-view, for an Ldi and for a file."""
 import json
 import os
 import pathlib

@@ -1,5 +1,6 @@
-"""What share/blender/sparselens_blender takes from a plan, and what it says of a scene that it cannot render right, without
-Blender: a stand-in for its modules is enough. tests/blender/script.sh asks the same of Blender's own scenes.
+"""Checks how share/blender/sparselens_blender reads a plan, and its messages about scenes that it cannot render
+correctly, without Blender: stand-ins for its modules suffice. tests/blender/script.sh checks the same with Blender's
+own scenes.
 
     blender-plan.py FOLDER
 """
@@ -55,7 +56,7 @@ def expect_plan(pattern, plan, size=(160, 90), supersample=1):
 
 window = {"display_window": [0, 0, 159, 89]}
 expect_plan("", window)
-expect_plan("", window, supersample=2)  # of a version that did not say it
+expect_plan("", window, supersample=2)  # from a version that did not state it
 expect_plan("", {**window, "center_supersample": 2}, supersample=2)
 expect_plan("--supersample 2", {**window, "center_supersample": 2})
 expect_plan("--supersample 1", {**window, "center_supersample": 1}, supersample=2)
@@ -119,7 +120,7 @@ expect(checks.check_scene(scene([layer()], use_motion_blur=True, use_border=True
 expect_refusal(scene([layer(use=False)]), "no view layer of scene 'Scene'")
 expect_refusal(scene([layer()], "BLENDER_WORKBENCH"), "choose Cycles or EEVEE")
 
-# A warning that each frame gives is said once, and then how often it came.
+# A warning that each frame gives is printed once, and then its count.
 said = []
 once = chain.Once(said.append)
 for frame in 1, 2, 3:

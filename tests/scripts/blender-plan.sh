@@ -1,6 +1,6 @@
 #!/bin/bash
-# What the script for Blender takes from a plan: names that lead out of its folder are refused. What it says of scenes that it
-# cannot render right.
+# How the script for Blender reads a plan: names that lead out of its folder are refused. Also its messages about scenes
+# that it cannot render correctly.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 command -v python3 >/dev/null || { echo "skipped: needs python3"; exit 77; }

@@ -1,5 +1,5 @@
-# tools/demo.sh with the executables that are built, on a small picture: writes what it promises, takes earlier
-# tracing again, and never when the arguments or the files have changed.
+# tools/demo.sh with existing executables, on a small picture: writes what it promises, and reuses earlier tracing
+# unless the arguments or the files have changed.
 #   bash demo.sh BIN_DIR
 . "$(dirname "$0")/../tools/check.sh"
 
@@ -14,10 +14,10 @@ grep -Eq '^import sparselens.* ([0-9]+\.[0-9]+|left out: .*)$' stdout || fail "n
 decibels() { sed -nE "s/^ *$1.* ([0-9]+\.[0-9]+) +[01]\.[0-9]{4}\$/\1/p" stdout; }
 before=$(decibels 'the centre view as it is') after=$(decibels 'dof-gather --method lens')
 [ -n "$before" ] && [ -n "$after" ] || fail "no error figures: $(cat stdout)"
-# At most half the error of the view that it is made of, though that, of few rays, is in the reference too: 6 dB.
+# At most half the error of the view, although the reference, of few rays, is noisy too: 6 dB.
 awk "BEGIN { exit !($after >= $before + 6) }" || fail "defocusing brings too little: $before dB before, $after dB after"
 ! grep -q 'without titles' stdout || fail "oiiotool finds no font: $(cat stdout)"
-# It ends with what to look at: the pictures it names are there, and the commands it names work.
+# It ends with what to look at: the pictures that it names exist, and the commands work.
 sed '1,/^Look at/d' stdout >look
 pictures=$(sed '/^The best one/,$d' look | grep -oE '[^ (]+\.(png|exr)')
 [ "$(wc -l <<<"$pictures")" -ge 6 ] || fail "names too few pictures: $(cat stdout)"
@@ -27,7 +27,7 @@ done
 grep -E '^  .*/dof-gather ' look >commands || fail "names no command: $(cat stdout)"
 [ "$(wc -l <commands)" -eq 2 ] || fail "not two commands: $(cat commands)"
 if [ -x "$bin/dof-view" ]; then
-    view=$(sed -n '/^Or point at/{n;s/^ *//p}' look) # runs until it is ended
+    view=$(sed -n '/^Or point at/{n;s/^ *//p}' look) # runs until it is stopped
     timeout 5 bash -c "exec $view" >said || [ $? -eq 124 ] || fail "$view: $(cat said)"
     grep -q '^http://127.0.0.1:[0-9]*/?key=' said || fail "$view: $(cat said)"
 fi
@@ -49,7 +49,7 @@ demo --spp 1
 exits 2 "$source_dir/tools/demo.sh" --nonsense 1
 exits 2 "$source_dir/tools/demo.sh" --size
 
-# Where oiiotool finds no font, whatever its name or path, the pictures have no titles, and the demo says why.
+# If oiiotool finds no font by name or path, the pictures have no titles, and the demo says why.
 mkdir no-fonts
 cat >no-fonts/oiiotool <<END
 #!/bin/bash
@@ -61,7 +61,7 @@ PATH=$PWD/no-fonts:$PATH demo
 grep -q 'fence.png .*; without titles, as oiiotool finds no font' stdout || fail "no word of titles: $(cat stdout)"
 exits 0 oiiotool --info out/fence.png
 
-# A build that has the Python package but not its module, as the demo's own build leaves it where pybind11 is installed.
+# A build with the Python package but without its module, which the demo's own build gives if pybind11 is installed.
 mkdir -p bare/python/sparselens
 echo 'from ._sparselens import *' >bare/python/sparselens/__init__.py
 ln -s "$(realpath "$bin")" bare/bin

@@ -1,4 +1,4 @@
-# What the documents may hold: as many words as one reads, and figures that a command measured. bash documents.sh
+# Limits of the documents: a number of words that people read, and figures measured by a command. bash documents.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 fail() {
@@ -6,12 +6,12 @@ fail() {
     exit 1
 }
 
-# All that is read: README.md, CONTRIBUTING.md and docs. Pages of figures are apart.
+# Documents to read: README.md, CONTRIBUTING.md and docs. Pages of figures do not count.
 most=16000
 words=$(cat README.md CONTRIBUTING.md docs/*.md | wc -w)
 [ "$words" -le $most ] || fail "README.md, CONTRIBUTING.md and docs have $words words ($most at most)"
 
-# measured PAGE DOCUMENT: what stands there between the marks of lab/measure.
+# measured PAGE DOCUMENT: the text between the marks of lab/measure.
 measured() { sed -n "/^<!-- measured: $1 /,/^<!-- end -->\$/{/^<!-- /d;p}" "$2"; }
 count=0
 for document in README.md docs/*.md lab/results/*.md; do
@@ -29,8 +29,8 @@ for document in README.md docs/*.md lab/results/*.md; do
         count=$((count + 1))
     done < <(grep -E '^<!-- measured: ' "$document")
     [ "$(grep -cE '^<!-- measured: ' "$document")" -eq "$(grep -c '^<!-- end -->$' "$document")" ] || fail "$document: a mark of lab/measure has no end"
-    # Tables of figures come from there. Those of comp.md are held by comp.sh; platforms.md has versions, and the figures of
-    # blender.md take three releases of Debian.
+    # Tables of figures come from lab/measure. comp.sh checks those of comp.md; platforms.md has versions, and the
+    # figures of blender.md need three releases of Debian.
     [[ $document != docs/comp.md && $document != docs/platforms.md && $document != lab/results/blender.md ]] || continue
     pasted=$(sed '/^<!-- measured: /,/^<!-- end -->$/d' "$document" | grep -E '^\|.*\| *[-+]?[0-9]+\.[0-9]+ *(dB|s|GB)? *\|.*\| *[-+]?[0-9]+\.[0-9]+' || true)
     [ -z "$pasted" ] || fail "$document has a table of figures that no command measured: $(head -n 1 <<<"$pasted")"

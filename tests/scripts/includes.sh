@@ -1,12 +1,13 @@
-# Includes run one way, down the floors that docs/code.md lists, of folders and of single files: a file includes what lies in its
-# own folder or on a lower floor, and nothing that the same document says may never be. Public headers, which are installed, include public headers alone, by relative paths, so that one include
-# root is enough.
+# Includes run one way, down the floors that docs/code.md lists, of folders and of single files: a file includes files
+# of its own folder or of lower floors, and nothing that the same document forbids. Public headers, which are installed,
+# include only public headers, by relative paths, so that one include root is enough.
 #   bash includes.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# What there is, a word and what it is said of: `floor FOLDER_OR_FILE...`, the lowest first; `never FOLDER...: FOLDER...`; `public HEADER`, by its path in src/;
-# `folder PATH`; `file PATH`; `include FILE NAME`; `call FILE LINE NAME`, where a face does what src/chain does for all faces.
+# Prints facts, a keyword and its subject: `floor FOLDER_OR_FILE...`, the lowest first; `never FOLDER...: FOLDER...`;
+# `public HEADER`, by its path in src/; `folder PATH`; `file PATH`; `include FILE NAME`; `call FILE LINE NAME`, where a
+# front end does what src/chain does for all of them.
 facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
     sed -n '/^```never$/,/^```$/{/^```/d;s/#.*//;s/:/ &/;s/^/never /;p}' docs/code.md
@@ -37,7 +38,7 @@ function normal(path,    parts, n, i, kept, result) {
     for (i = 1; i <= kept; ++i) result = result (i > 1 ? "/" : "") parts[i]
     return result
 }
-# The file that FILE means by "NAME": beside it, in tools/, in src/ or as it stands.
+# The file that FILE includes as "NAME": beside it, in tools/, in src/ or from the root.
 function included(file, name,    path) {
     path = normal(folder_of(file) "/" name)
     if (path in is_file) return path
@@ -46,7 +47,7 @@ function included(file, name,    path) {
     path = normal("src/" name)
     return path in is_file ? path : normal(name)
 }
-# What of the floors a file is on: itself or its folder.
+# The entry of the floors that contains a file: the file itself or its folder.
 function room_of(path) { return path in floor ? path : folder_of(path) }
 function check_floors(file, name,    from, to) {
     from = room_of(file)
@@ -56,7 +57,7 @@ function check_floors(file, name,    from, to) {
     else if (!(to in floor)) fault(file " includes " name ": " to " is on no floor of docs/code.md")
     else if (floor[to] >= floor[from]) fault(file " includes " name ": " to " is not on a lower floor than " from)
 }
-# PATH lies in one of the folders, or in folders of theirs.
+# Whether PATH is inside one of the folders.
 function lies_in(path, folders,    names, n, i) {
     n = split(folders, names, " ")
     for (i = 1; i <= n; ++i) if (index(path "/", names[i] "/") == 1) return 1

@@ -1,4 +1,4 @@
-# tools/install-deps.sh against stand-ins for dpkg-query, apt-get and id, so that nothing is installed here.
+# tools/install-deps.sh with stand-ins for dpkg-query, apt-get and id, so that nothing is installed here.
 set -euo pipefail
 script=$(cd "$(dirname "$0")/../.." && pwd)/tools/install-deps.sh
 scratch=$(mktemp -d)
@@ -10,7 +10,7 @@ fail() {
     exit 1
 }
 
-# stand_in NAME SHELL_CODE; the machine has nothing but these and what the script may expect of a base system.
+# stand_in NAME SHELL_CODE; the machine has only these and what the script may expect of a base system.
 stand_in() {
     printf '#!/bin/sh\n%s\n' "$2" >"bin/$1"
     chmod +x "bin/$1"
@@ -53,7 +53,7 @@ stand_in sudo 'echo sudo >>calls; exec "$@"'
 run build || fail "failed with sudo"
 [ "$(grep -c '^sudo$' calls)" -eq 2 ] || fail "sudo was not used"
 
-# What the releases of Debian differ in; of an unknown one it is what the newest has.
+# Differences between Debian releases; an unknown release is treated like the newest.
 asks_for() { # CODENAME SET
     echo "VERSION_CODENAME=$1" >os-release
     rm -f calls

@@ -1,5 +1,5 @@
-# Rules and layouts that the CPU and devices share stand once, in src/kernels: no shader declares a constant of its own, and
-# nothing in src/gpu declares again what src/kernels does.
+# Rules and layouts that the CPU and devices share are defined once, in src/kernels: no shader declares its own
+# constant, and nothing in src/gpu repeats a declaration of src/kernels.
 #   bash kernels.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

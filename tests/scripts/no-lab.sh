@@ -1,11 +1,12 @@
 #!/bin/bash
-# Without Embree the project configures, the laboratory is off where nobody asks for it, the library builds, and no command that
-# builds or links the rest names Embree, the laboratory or a header of either. If it is asked for, the error says what to do.
+# Without Embree the project configures, the laboratory is off by default, the library builds, and no command that
+# builds or links the rest names Embree, the laboratory or a header of either. If the laboratory is asked for, the error
+# says what to do.
 #
 #   tests/scripts/no-lab.sh BUILD_DIR     the commands of the library are those of BUILD_DIR, so that is not built again
 #   tests/scripts/no-lab.sh all           builds the tools and the tests too, and runs the unit tests
 #
-# With `all` everything is built without optimisation, in several minutes.
+# With `all` everything is built without optimisation, which takes several minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 exec </dev/null
@@ -15,7 +16,7 @@ trap 'rm -rf "$build"' EXIT
 built='' same=(-DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
 if [ "${1:?usage: no-lab.sh BUILD_DIR, or all}" != all ]; then
     built=$(cd "$1" && pwd)
-    # What decides the commands of the library.
+    # The settings that determine the commands of the library.
     values='CMAKE_(BUILD_TYPE|INSTALL_PREFIX|CXX_(COMPILER|COMPILER_LAUNCHER|FLAGS(_[A-Z]+)?))'
     values+='|SPARSELENS_(WERROR|SANITIZE|PYTHON|GPU)|BUILD_SHARED_LIBS'
     mapfile -t same < <(sed -nE "s/^(($values):[^=]*=.*)\$/-D\1/p" "$built/CMakeCache.txt")
@@ -24,7 +25,7 @@ configure() {
     cmake -S . -B "$build" -G Ninja -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DSPARSELENS_BENCHMARKS=OFF \
         "${same[@]}" "$@" >"$build/said" 2>&1
 }
-# The commands that make the library, whatever the folder.
+# The commands that build the library, for any folder.
 library_commands() { ninja -C "$1" -t commands sparselens | sed "s#$1#BUILD#g" | sort; }
 
 if configure -DSPARSELENS_LAB=ON; then
@@ -49,7 +50,7 @@ fi
 
 if [ -n "$built" ]; then
     diff <(library_commands "$built") <(library_commands "$build") || { echo "with the laboratory (<) the library is another"; exit 1; }
-    ninja -C "$built" sparselens >"$build/said" || { cat "$build/said"; exit 1; } # nothing to do, if all is built
+    ninja -C "$built" sparselens >"$build/said" || { cat "$build/said"; exit 1; } # nothing to do if everything is built
     exit 0
 fi
 ninja -C "$build"

@@ -1,6 +1,6 @@
-# The documents keep their word. README.md is short; relative links resolve; tools and scripts that are named are there;
-# docs/code.md finds its functions; the package list is the build's; and the shell examples of README.md and docs/*.md run,
-# each document's in a scratch folder of its own, in the order they stand in.
+# Checks the documents. README.md is short; relative links resolve; tools and scripts that are named exist; docs/code.md
+# finds its functions; the package list equals the build's; and the shell examples of README.md and docs/*.md run, in
+# order, in a scratch folder for each document.
 #   bash readme.sh BIN_DIR
 . "$(dirname "$0")/../tools/check.sh"
 readme=$source_dir/README.md
@@ -10,18 +10,18 @@ scripts=(share/*/*.sh share/*/*.py share/blender/*/*.py share/*/*.yaml)
 cd "$scratch"
 PATH=$bin:$PATH
 
-# blocks DOCUMENT LANGUAGE: the contents of all its fenced blocks of that language.
+# blocks DOCUMENT LANGUAGE: the contents of all its fenced blocks in that language.
 blocks() { sed -n "/^\`\`\`$2\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/$1"; }
 
-# README.md is at most 800 words, its lines at most 120 characters but those of tables and links.
+# README.md has at most 800 words, and lines of at most 120 characters except tables and links.
 words=$(wc -w <"$readme")
 [ "$words" -le 800 ] || fail "README.md has $words words (800 at most)"
 long=$(grep -vE '^\||\]\(' "$readme" | LC_ALL=C.UTF-8 grep -nE '^.{121}' || true)
 [ -z "$long" ] || fail "README.md has lines of more than 120 characters: $long"
 
-# matches PATTERN FILE: each once, one a line; none is no error.
+# matches PATTERN FILE: each match once, one per line; no match is not an error.
 matches() { grep -ohE "$1" "$2" | sort -u || true; }
-# named DOCUMENT: the files and tools that it names are there.
+# named DOCUMENT: the files and tools that it names exist.
 named() {
     matches '\b(src|tools|tests|share|lab)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$1" |
         while read -r file; do
@@ -32,7 +32,7 @@ named() {
     done
 }
 
-# What is named is there.
+# All named files exist.
 for document in "${documents[@]}"; do
     folder=$source_dir/$(dirname "$document")
     matches '\]\([^)]+\)' "$source_dir/$document" | sed -E 's/^\]\(//;s/\)$//;s/#.*//' | while read -r link; do
@@ -41,7 +41,7 @@ for document in "${documents[@]}"; do
     named "$document"
 done
 for script in "${scripts[@]}"; do named "$script"; done
-# Options are those of a tool by its own help, of a script of share/ that has them, or of another program.
+# Options exist in a tool's own help, in a script of share/, or in another program.
 for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--[a-z][a-z_-]+' >options
 cat "$source_dir"/share/{blender/sparselens_blender/command.py,opencue/submit.py,slurm/submit.sh} >scripts
 grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
@@ -88,13 +88,13 @@ while read -r file name; do
     grep -qw "$name" "$source_dir/$file" || fail "docs/code.md: $file has no $name"
 done <<<"$rows"
 
-# The packages to build by hand are those that the build installs.
+# The packages for building by hand equal those that the build installs.
 packages() { tr -s ' \\\n' '\n' | grep -v '^$' | sort; }
 by_script=$(sed -nE "/^build='/,/'\$/{s/^build=//;s/'//g;p}" "$source_dir/tools/install-deps.sh" | packages)
 by_hand=$(blocks README.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
 [ "$by_script" = "$by_hand" ] || fail "README.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
 
-# run DOCUMENT FOLDER: its shell examples, without the project's own scripts; they trace small pictures.
+# run DOCUMENT FOLDER: runs its shell examples, except the project's own scripts; traced pictures are small.
 run() {
     echo "trap 'echo \"exit status \$?: \$BASH_COMMAND\" >&2' ERR" >"$scratch/example"
     blocks "$1" sh | sed -E '/^\.\//d; /--size/!s/^dof-trace [a-z]+/& --size 160x90/' >>"$scratch/example"
@@ -110,7 +110,7 @@ done
 mkdir readme
 run README.md readme
 
-# Documents begin where the README's example ends, with smaller pictures.
+# Documents start where the README's example ends, with smaller pictures.
 mkdir start
 dof-trace fence --size 160x90 --views 4 --spp 4 -o start/views
 ldi-warp start/views/center.exr start/views/view_*.exr -o - | ldi-cluster - -o start/fence.ldi.exr
@@ -120,5 +120,5 @@ for document in "${documents[@]:1}"; do
     cp -r start "${document//\//_}"
     run "$document" "${document//\//_}"
 done
-# What docs/comp.md says of the pictures that it has made.
+# Checks what docs/comp.md says of its pictures.
 (cd docs_comp.md && bash "$source_dir/tests/scripts/comp.sh" "$bin")

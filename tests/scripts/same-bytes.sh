@@ -1,13 +1,15 @@
 #!/bin/bash
-# Do two builds make the same files? Renders small views of every test scene, makes LDIs of them in every mode and pictures
-# by every method and look, and prints a line "HASH SCENE/NAME" for each file, sorted: two builds are compared by diff.
+# Do two builds make the same files? Renders small views of every test scene, makes LDIs of them in every mode and
+# pictures by every method and look, and prints a line "HASH SCENE/NAME" for each file, sorted, so that diff can compare
+# two builds.
 #
 #   tests/scripts/same-bytes.sh BIN_DIR               prints the list
 #   tests/scripts/same-bytes.sh BIN_DIR OTHER_BIN_DIR prints what differs, and fails if anything does
 #
-# Hashed are whole files, header and all: none holds a date, and command lines are not recorded. Left out is camera.json,
-# which says how long rendering took. The list is the same whatever the number of threads. Where Vulkan finds a device, one
-# in software included, it makes some, too. Takes a minute a build on two cores, and needs the laboratory (dof-trace).
+# Whole files are hashed, including the header: none holds a date, and command lines are not recorded. camera.json is
+# left out, because it has render times. The list does not depend on the number of threads. If Vulkan finds a device,
+# even a software one, it makes some files too. Takes a minute per build on two cores, and needs the laboratory
+# (dof-trace).
 set -euo pipefail
 export SPARSELENS_NO_HISTORY=1 LC_ALL=C
 unset OCIO SPARSELENS_DEVICE
@@ -15,7 +17,7 @@ here=$(realpath "${BASH_SOURCE[0]}")
 source_dir=$(cd "$(dirname "$here")/../.." && pwd)
 size=96x54
 
-# A line is an LDI or a picture, and is its name.
+# Each line is an LDI or a picture, and serves as its name.
 ldis='
 --merge keep
 --silhouettes whole
@@ -64,7 +66,7 @@ pictures='
 --lens lenses/petzval.json
 '
 
-# each LINES COMMAND...: the command for each line, with its name and its words at the end.
+# each LINES COMMAND...: runs the command for each line, with its name and its words as arguments.
 each() {
     local line
     while read -r line; do
@@ -78,7 +80,7 @@ on_device() { # METHOD...
     for method; do picture ldi.exr "device_$method" --method "$method" --device "$device"; done
 }
 
-# All files of a scene, in a folder of its name. What the tools say is kept, too.
+# All files of a scene, in a folder with its name. The tools' messages are kept too.
 scene() {
     mkdir "$1"
     cd "$1"
@@ -94,20 +96,20 @@ scene() {
     picture ldi.exr holdout --holdout views/deep_visible.exr
     picture ldi.exr holdout_defocused --holdout views/deep_visible.exr --holdout-defocused
     each "$pictures" picture ldi.exr
-    picture ldi.exr scatter --method scatter --proxy 2 # minutes, where the blur is large
+    picture ldi.exr scatter --method scatter --proxy 2 # takes minutes if the blur is large
     "$bin/dof-accumulate" views/view_*.exr --center views/center.exr -o average.exr
     "$bin/ldi-cluster" ldi.exr -o clustered.exr
     "$bin/ldi-plan" views/center.exr -o plan.json --masks masks
     [ -z "$device" ] || on_device lens selective
 }
 
-# made BIN_DIR: the list of what its tools make, or an error.
+# made BIN_DIR: the list of the files that its tools make, or an error.
 made() (
     bin=$(cd "$1" && pwd)
     folder=$(mktemp -d)
     trap 'rm -rf "$folder"' EXIT
     cd "$folder"
-    # Its name, without what follows in brackets.
+    # The device's name, without the part in brackets.
     device=$({ "$bin/dof-gather" --device list 2>/dev/null || true; } | sed -n '1s/ (.*//p')
     export bin device
     "$bin/dof-trace" --help | sed -nE 's/^ *SCENE :\{(.*)\}.*/\1/p' | tr , '\n' |
@@ -115,7 +117,7 @@ made() (
     find . -type f ! -name camera.json -printf '%P\n' | sort | xargs -d '\n' sha256sum | sed -E 's/^(.{16})\S*  /\1 /'
 )
 
-if [ "${1-}" = --scene ]; then # by made
+if [ "${1-}" = --scene ]; then # called by made
     scene "$2"
 elif [ $# -eq 1 ]; then
     made "$1"

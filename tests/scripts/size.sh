@@ -1,6 +1,6 @@
 #!/bin/bash
-# How large the product is: src and tools, without the laboratory. Lines and files of C++, GLSL and templates of either, includes
-# of own files, and arrows: pairs of rooms, which are the folders of src and of tools, of which one includes the other.
+# Measures the size of the product: src and tools, without the laboratory. Lines and files of C++, GLSL and templates of
+# either, includes of own files, and arrows: pairs of folders in src and tools of which one includes the other.
 #
 #   tests/scripts/size.sh [COMMIT]     of the working tree, or of a commit
 set -euo pipefail
@@ -12,7 +12,7 @@ if [ $# -gt 0 ]; then
     cd "$tree"
 fi
 
-# Older commits have the laboratory in src and tools.
+# In older commits the laboratory is in src and tools.
 files=$(find src tools -regextype posix-extended -regex '.*\.(cpp|h|comp|glsl|in)' |
     grep -vE '^(src|tools)/lab/|^tools/dof-(trace|report|stress|accumulate)\.cpp$' | sort)
 xargs cat <<<"$files" | awk 'END { print "lines     " NR }'

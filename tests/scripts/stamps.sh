@@ -1,12 +1,12 @@
 #!/bin/bash
-# Were the figures of the documents measured on the code as it is?
+# Checks that the figures of the documents were measured on the current code.
 #
 #   tests/scripts/stamps.sh            each table of lab/measure names a commit of this history, and what changed since
 #   tests/scripts/stamps.sh --write    writes after each table which code changed since
 #   tests/scripts/stamps.sh --strict   besides: nothing changed since for the pages that README.md links to
 #
-# A table depends on the code of what is gathered and traced, or on what "# Code:" says in its lab/measures/PAGE.sh. Comments and
-# spaces do not count. Where code has changed, the line after the table says "Changed since: FOLDERS."
+# A table depends on the code of gathering and tracing, or on the paths after "# Code:" in its lab/measures/PAGE.sh.
+# Comments and spaces do not count. If code has changed, the line after the table says "Changed since: FOLDERS."
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mode=${1-}
@@ -34,7 +34,7 @@ changed() {
     done < <(git diff --name-only "$1" -- "${@:2}" | grep -E '\.(cpp|h|comp|glsl)$')
     echo $found
 }
-# since PAGE COMMIT: the line that belongs after that table; nothing where its code is today's.
+# since PAGE COMMIT: the line that belongs after that table; empty if its code is current.
 since() {
     local of folders
     of=$(sed -n 's/^# Code: //p' "lab/measures/$1.sh")

@@ -1,13 +1,14 @@
-# Each threshold of a stage stands in its tuning.h, and what a lamp is in lens/lamp.h, under a name of its own, and is used; rules
-# that shaders share stand in src/kernels. What else has a number for a value is named here, with what it is.
+# Each threshold of a stage is in its tuning.h, and the definition of a lamp in lens/lamp.h, with its own name, and is
+# used; rules that shaders share are in src/kernels. Other constants with a number as their value are listed here with a
+# reason.
 #   bash tuning.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 stages='plan warp dof finish'
 
-# FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants, defaults and tables
-# of options.
+# FILE NAME...: sizes of stored or processed blocks, sentinels, bounds of arithmetic and its constants, defaults and
+# tables of options.
 allowed='
 dof/facets/facets.h size
 dof/facets/placed_facets.cpp at_once
@@ -76,12 +77,12 @@ fault() {
     faults=1
 }
 
-# FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
+# FILE NAME for each constant of these stages outside tuning.h whose value begins with a number.
 constants() {
     find $(sed -E 's|([a-z]+)|src/\1|g' <<<"$stages") '(' -name '*.h' -o -name '*.cpp' ')' ! -name tuning.h | sort | xargs awk '
 FNR == 1 { whole = "" }
 {
-    # A declaration in one line, without comments and what is in brackets.
+    # A declaration in one line, without comments and without text in brackets.
     sub(/\/\/.*/, "")
     whole = whole " " $0
     if (whole ~ /[=,] *$/) next

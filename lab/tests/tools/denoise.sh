@@ -1,5 +1,6 @@
 #!/bin/bash
-# lab/denoise by Open Image Denoise (PyPI): few rays gain, what is not colour stays, and dof-report measures what it made.
+# lab/denoise with Open Image Denoise (PyPI): denoising gains with few rays, changes only colours, and dof-report
+# measures the result.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
 code=0

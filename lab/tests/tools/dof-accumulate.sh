@@ -4,11 +4,11 @@
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 accumulate=$bin/dof-accumulate
 
-# lamp FILE X Y: 64x48, black, one pixel of 5 and a depth.
+# lamp FILE X Y: 64x48, black, one pixel of value 5, and a depth.
 lamp() {
     picture make "$1" 64x48 R=0 G=0 B=0 A=0 Z=0 fill=1x1+$2+$3 R=5 G=5 B=5 A=1 Z=7 half=R,G,B,A
 }
-# value FILE X Y: of channel R.
+# value FILE X Y: prints channel R.
 value() {
     picture pixel "$1" "$2,$3" R
 }
@@ -22,7 +22,8 @@ holds() {
 
 answers_help dof-accumulate VIEW.exr -o OUT.exr
 
-# F = 64 pixels; focused at 2, a view 1/8 off is off by 4 pixels there. The lamp stands in the plane of focus.
+# F = 64 pixels; focused at 2, a view 1/8 from the centre is displaced by 4 pixels there. The lamp is in the plane of
+# focus.
 lens=(--focal-length 36 --sensor-width 36 --focus-distance 2)
 lamp center.exr 32 24
 lamp right.exr 28 24
@@ -38,12 +39,12 @@ holds out.exr 31 24 0
 oiiotool --info -v out.exr | grep -q 'channel list: R, G, B, A$' || fail "other channels than R, G, B, A"
 oiiotool --info out.exr | grep -q '4 channel, half' || fail "not half"
 
-# Focused elsewhere, the lamp is five lamps.
+# With another focus the lamp becomes five lamps.
 exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance inf -o inf.exr
 holds inf.exr 32 24 1
 holds inf.exr 28 24 1
 holds inf.exr 32 28 1
-# The other lens options scale the move.
+# The other lens options scale the displacement.
 exits 0 "$accumulate" "${views[@]}" --focal-length 18 --sensor-width 36 --focus-distance 2 -o focal.exr
 holds focal.exr 30 24 1
 exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 72 --focus-distance 2 -o sensor.exr
@@ -61,7 +62,7 @@ exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --fstop 1 -v -o out.exr # 0.018
 grep -q '1 views' stderr || fail "--fstop leaves nothing out: $(cat stderr)"
 exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --fstop 1 --scene-unit 0.1 -v -o out.exr # 0.18
 grep -q '5 views' stderr || fail "--scene-unit changes nothing: $(cat stderr)"
-exits 0 "$accumulate" "${views[@]}" --lens-radius 0 -o out.exr # needs nothing else
+exits 0 "$accumulate" "${views[@]}" --lens-radius 0 -o out.exr # needs no other value
 holds out.exr 32 24 5
 fails_saying 1 'all views lie outside the aperture' "$accumulate" --view 1,0 left.exr "${lens[@]}" --lens-radius 0.5 -o none.exr
 
@@ -85,13 +86,13 @@ exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-
 exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 3.3 --threads 2 -d float -o two.exr
 picture same one.exr two.exr || fail "threads change the picture"
 
-# A value that is not finite is filled and told.
+# A non-finite value is filled and reported.
 picture edit center.exr overflow.exr float= fill=1x1+32+24 R=inf
 exits 0 "$accumulate" --view 0,0 center.exr --view 0,0 overflow.exr "${lens[@]}" -d float -o out.exr
 grep -q 'warning: overflow.exr: 1 values' stderr || fail "no warning of bad values: $(cat stderr)"
 holds out.exr 32 24 2.5
 
-# Wrong usage, and what fails leaves no picture behind.
+# Wrong usage. A failure leaves no picture behind.
 rm -f none.exr
 fails_saying 2 'no views' "$accumulate" "${lens[@]}" -o none.exr
 fails_saying 2 output "$accumulate" center.exr
@@ -107,7 +108,7 @@ picture edit center.exr other.exr frame=60x48
 fails_saying 1 'other.exr.*display window' "$accumulate" --view 0,0 center.exr --view 0,0 other.exr "${lens[@]}" -o none.exr
 [ ! -e none.exr ] || fail "a failed run left a picture"
 
-# Cameras out of the metadata; the lens centre by --center.
+# Cameras from the metadata; the lens centre from --center.
 exits 0 "$bin/dof-trace" fence -o fence --views 2 --lens-views 8 --spp 1 --size 48x27 --lens-radius 0.06
 exits 0 "$accumulate" fence/lens_*.exr --center fence/center.exr -o centered.exr
 [ ! -s stderr ] || fail "warns although --center is given: $(cat stderr)"
@@ -116,8 +117,8 @@ grep -q 'warning: .*--center' stderr || fail "does not say that the centre is gu
 picture differ centered.exr guessed.exr || fail "--center changes nothing"
 fails_saying 2 'left.exr.*worldToCamera' "$accumulate" fence/lens_*.exr --center left.exr -o none.exr
 
-# Frusta that converge on the plane of focus: all see the lamp there in the same pixel, and focused elsewhere it moves as
-# if they looked straight ahead. Wherever the views' places come from.
+# Frusta that converge on the plane of focus: all see the lamp there in the same pixel. With another focus it moves as
+# if they looked straight ahead, however the views' positions are given.
 converging() { # FILE X NDC: a camera X to the right, whose optical axis meets the picture at NDC, 0 to 1
     oiiotool center.exr --attrib:type=matrix worldToCamera "1,0,0,0,0,1,0,0,0,0,1,0,$2,0,0,1" \
         --attrib:type=matrix worldToNDC "1,0,0,0,0,-1.3333333,0,0,$3,0.5,1,1,$2,0,-1,0" -o "$1"
@@ -138,8 +139,8 @@ done
 oiiotool to_left.exr --attrib:type=matrix worldToNDC "1.1,0,0,0,0,-1.46667,0,0,0.4375,0.5,1,1,0.1375,0,-1,0" -o longer.exr
 fails_saying 1 'longer.exr: its focal length differs' "$accumulate" to_right.exr longer.exr --center middle.exr "${lens[@]}" -o none.exr
 
-# 64 views of 16 samples each are nearer the truth than 64 rays a pixel through the lens. Overscan, so that the views
-# see what the lens sees beyond the border.
+# 64 views of 16 samples each are nearer to the truth than 64 rays per pixel through the lens. With overscan, so that
+# the views see what the lens sees beyond the border.
 trace() { exits 0 "$bin/dof-trace" fence -o "$1" --views 0 --size 96x54 "${@:2}"; }
 trace truth --reference 1024
 trace rays --reference 64

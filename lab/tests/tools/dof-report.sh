@@ -1,6 +1,6 @@
 #!/bin/bash
-# dof-report from the shell: a quick report of the built-in scenes and of ready-made views, its files, that it goes
-# on where it stopped; the page in headless Chromium.
+# dof-report from the shell: a quick report of the built-in scenes and of ready-made views, its files, and that it
+# continues where it stopped; the page in headless Chromium.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 report=$bin/dof-report
@@ -16,7 +16,7 @@ done
 echo text >occupied
 fails_saying 1 'occupied' "$report" --quick fence -o occupied
 
-# Views as a user brings them: rendered, and timed, by another program.
+# Views from a user: rendered and timed by another program.
 exits 0 "$bin/dof-trace" lamps --size 96x54 --views 4 --spp 16 --reference 256 -o 'my views'
 exits 0 "$bin/dof-trace" lamps --size 96x54 --views 0 --reference 16 --seed 1 -o drt
 cp drt/reference.exr 'my views/drt_16.exr'
@@ -28,7 +28,7 @@ mv stdout printed
 grep -v 'gnuplot is not installed' stderr >said || true
 [ ! -s said ] || fail "talks on stderr: $(cat said)"
 
-# value SCENE METHOD BUDGET COLUMN: of report.csv, whose fields here hold no commas but in quotes.
+# value SCENE METHOD BUDGET COLUMN: prints a field of report.csv. These fields have commas only inside quotes.
 value() {
     awk -v scene="$1" -v method="$2" -v budget="$3" -v column="$4" '
         { line = $0; n = 0
@@ -41,7 +41,7 @@ value() {
 }
 positive() { awk -v v="$1" 'BEGIN { exit !(v > 0) }' || fail "$2 is '$1', not above 0"; }
 is() { awk -v a="$1" -v b="$2" -v t="${4:-1e-9}" 'BEGIN { exit !(a != "" && a - b <= t && b - a <= t) }' || fail "$3 is '$1', not '$2'"; }
-rows=29 # of a built-in scene
+rows=29 # for each built-in scene
 ! grep -q 'planned' out/report.csv || rows=31
 [ "$(wc -l <out/report.csv)" -eq $((1 + 2 * rows + 6)) ] || fail "report.csv has $(wc -l <out/report.csv) lines"
 for scene in fence grass; do
@@ -75,7 +75,7 @@ is "$(value grass 'centre + 8, lens normal' '4 samples' seconds)" "$total" 'sum 
 grep -q 'rays a pixel' printed || fail "no crossing is printed: $(cat printed)"
 [ "$(grep -c '^Least error of sparse views' printed)" -eq 3 ] || fail "not a verdict a scene: $(cat printed)"
 
-# The figures are dof-compare's; times of ready-made views are those in camera.json.
+# The figures equal dof-compare's; times of ready-made views come from camera.json.
 compared() { "$bin/dof-compare" "$1" "$2" --json --flip hdr | sed -n "s/^  \"${3:-psnr_tonemapped}\": \(.*\),/\1/p"; }
 is "$(value fence 'centre + 4, lens normal' '4 samples' psnr_tonemapped)" \
     "$(compared out/fence/views-5x4/lens-normal.exr out/fence/reference/reference.exr)" 'PSNR of fence'
@@ -108,11 +108,11 @@ else
     echo 'skipped: plots: gnuplot is not installed'
 fi
 
-# The page holds all of itself.
+# The page is self-contained.
 ! grep -qE 'https?:|src="[^d]|<link|url\(' out/index.html || fail 'the page needs other files'
 [ "$(grep -c '<section>' out/index.html)" -eq 3 ] || fail 'not a section a scene'
 
-# Nothing is measured again, a changed option measures just what it changes, and what is lost is made again.
+# Nothing is measured again; a changed option measures only what it changes, and lost files are made again.
 stamps() { (cd out/steps && find . -name '*.json' -printf '%p %T@\n' | sort); }
 newer() { stamps >after; comm -13 before after | sed 's/ .*//'; }
 stamps >before
@@ -129,12 +129,12 @@ exits 0 "$report" --quick --size 96x54 -o out grass --reference 512
 exits 0 "$report" --quick -o small grass --size 40x24 --runs 2 --threads 1 -v
 grep -q 'grass/reference' stderr || fail "-v does not name the steps: $(cat stderr)"
 oiiotool --info small/grass/reference/reference.exr | grep -q '40 x  *24' || fail "--size has no effect"
-# A step that takes long is run less often, on a loaded machine too.
+# A slow step is run fewer times, on a loaded machine too.
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "runs") at = i } NR > 1 { ++runs[$at] } END { for (r in runs) if (r != 1 && r != 2) exit 1; exit !runs[2] }' \
     small/report.csv || fail "--runs has no effect: $(cut -d , -f 1-6 small/report.csv)"
 grep -q 'threads: 1' small/index.html || fail "--threads has no effect"
 
-# On a terminal it tells how far it is and what is left, elsewhere nothing.
+# On a terminal it shows its progress and the time left; elsewhere nothing.
 if script -qec true /dev/null >terminal 2>&1 </dev/null; then
     rm -r small
     script -qec "'$report' --quick grass -o small --size 40x24" /dev/null >terminal </dev/null
@@ -144,7 +144,7 @@ else
     echo "skipped: progress on a terminal: no pseudo-terminal can be made ($(head -c 300 terminal))"
 fi
 
-# The page in a browser: pictures are there, and moving the slider shows something else.
+# The page in a browser: pictures are there, and moving the slider changes the picture.
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 [ -n "$chromium" ] || { echo 'skipped: the page in a browser: chromium is not installed'; exit 0; }
 # shot NAME SCRIPT: a screenshot of the page after the script has run in it.

@@ -1,5 +1,5 @@
 #!/bin/bash
-# dof-stress from the shell: every case holds its bound, one line each; lab/results/stress.md names them all.
+# dof-stress from the shell: every case stays within its bound, one line each; lab/results/stress.md names all cases.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 answers_help dof-stress
 exits 0 "$bin/dof-stress"

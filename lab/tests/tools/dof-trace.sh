@@ -8,7 +8,7 @@ differ() { ! cmp -s "$1" "$2" || fail "$1 and $2 are the same: $3"; }
 same() { cmp -s "$1" "$2" || fail "$1 and $2 differ: $3"; }
 header() { grep -q -e "$2" <<<"$(exrheader "$1")" || fail "$1 has no '$2': $(exrheader "$1")"; }
 
-# Every scene gives what was asked for, and nothing else.
+# Every scene gives the requested files, and no others.
 for scene in fence grass planes slant lamps mirror mist element macro \
     plane-mirror brushed-mirror glass-slab curved-mirrors glossy-floor; do
     exits 0 "$trace" $scene -o "$scene" "${small[@]}" --lens-views 2 --reference 3 --deep peel:3 --deep strata:3 --deep visible
@@ -19,7 +19,7 @@ lens_0001.exr reference.exr view_0.exr view_1.exr " ] || fail "$scene: $(ls -A "
 done
 differ fence/center.exr grass/center.exr "the scene has no effect"
 
-# The camera goes with every picture; rim views are displaced to the right, to the left.
+# Every picture has its camera; rim views are displaced to the right and to the left.
 header fence/center.exr 'worldToCamera'
 header fence/view_0.exr '^ *-0\.06 '
 header fence/view_1.exr '^ *0\.06 '
@@ -33,7 +33,7 @@ for key in '"width":48,' '"height":27,' '"focal_mm":36.0,' '"sensor_width_mm":36
     grep -q -e "$key" <<<"$(tr -d ' \n' <fence/camera.json)" || fail "no $key in $(cat fence/camera.json)"
 done
 
-# changes FILE OPTION...: the file of the scene fence is not what it was without the option.
+# changes FILE OPTION...: the option changes that file of the scene fence.
 changes() {
     local file=$1 default others=()
     shift
@@ -61,7 +61,7 @@ changes view_0.exr --fstop 1
 changes view_0.exr --lens-radius 0.03
 changes view_0.exr --scene-unit 0.5
 changes reference.exr --focus-distance 3
-# Looks of the lens are those of dof-gather; views from the whole lens show the shape of the aperture.
+# Looks of the lens are the same as in dof-gather; views over the lens show the shape of the aperture.
 picture make aperture.exr 4x3 Y=0 fill=4x2 Y=1
 echo '{"squeeze": 2}' >lens.json
 for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--aperture aperture.exr' '--cat-eye 1' '--axial-chromatic 0.1' \
@@ -110,11 +110,11 @@ header float/center.exr 'R, 32-bit'
 header float/center.exr 'dataWindow.*(-3 -3) - (10 6)'
 header float/center.exr 'displayWindow.*(0 0) - (7 3)'
 
-# What is not asked for does not change what is; nor do threads.
+# Options that ask for more pictures do not change the others, and neither do threads.
 exits 0 "$trace" fence -o again "${small[@]}" --threads 1
 for file in center view_0 view_1; do same "fence/$file.exr" "again/$file.exr" "--threads 1"; done
 
-# Without a lens every view is the centre's, but for the camera's own attributes.
+# Without a lens every view equals the centre view, except the camera's own attributes.
 for lens in '--lens-radius 0' '--fstop inf'; do
     exits 0 "$trace" grass -o still "${small[@]}" $lens
     same still/center.exr still/view_0.exr "$lens"
@@ -122,7 +122,7 @@ for lens in '--lens-radius 0' '--fstop inf'; do
     grep -q '"fstop": null' still/camera.json || fail "$lens: $(cat still/camera.json)"
 done
 
-# Two halves for dof-finish: without noise in common, neither with each other nor with the reference, and they say how many rays.
+# Two halves for dof-finish have independent noise, of each other and of the reference, and state their number of rays.
 exits 0 "$trace" fence -o halves "${small[@]}" --reference 3 --halves 6
 same fence/reference.exr halves/reference.exr "--halves"
 for pair in 'rays_1 rays_2' 'rays_1 reference' 'rays_2 reference'; do
@@ -150,7 +150,7 @@ done
 fails_saying 2 'fstop' "$trace" fence -o out --fstop 2 --lens-radius 1
 [ ! -e out ] || fail 'wrong usage leaves a folder behind'
 
-# Folders: made with their parents, any name; where that cannot be, an error that names it.
+# Folders: made with their parents, with any name; otherwise an error names the folder.
 exits 0 "$trace" fence -o "deep/er/a folder 'quoted'" --size 4x4 --views 0
 [ -e "deep/er/a folder 'quoted'/center.exr" ] || fail 'no folder was made'
 echo text >occupied

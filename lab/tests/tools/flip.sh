@@ -1,6 +1,6 @@
 #!/bin/bash
-# dof-compare --flip against flip-evaluator (PyPI), by the authors of FLIP: the means of ten pairs, LDR and HDR, within 1e-3, and the
-# maps within 5e-3 a pixel.
+# dof-compare --flip compared with flip-evaluator (PyPI), by the authors of FLIP: the means of ten pairs, LDR and HDR,
+# within 1e-3, and the maps within 5e-3 per pixel.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
 python3 -m venv peers

@@ -1,5 +1,6 @@
 #!/bin/bash
-# lab/mitsuba by Mitsuba 3 (PyPI): five views of another's renderer become what its own lens shows, and more rays come nearer to it.
+# lab/mitsuba with Mitsuba 3 (PyPI): five views by another renderer approximate the picture of its own lens, and more
+# rays come nearer.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
 code=0

@@ -1,5 +1,6 @@
 #!/bin/bash
-# lab/rivals over one small scene: rows at equal rays of each way, pulls of each way, what a note costs, and what is left out.
+# lab/rivals on one small scene: rows at equal rays for each way, focus pulls for each way, the cost of a note, and what
+# is left out.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
 exits 0 "$source_dir/lab/rivals" --bin "$bin" --scenes 'fence meadow' --size 96x54 --reference 128 --without 'opendefocus blender' all
@@ -9,7 +10,8 @@ if grep -q 'left out: Open Image Denoise' all/left-out; then
     grep -q fence all/report.txt || fail "nothing is measured without PyPI"
     skip "Open Image Denoise: PyPI cannot be reached, or has no wheel for this Python"
 fi
-# A cell for each way at 5 rays and more, but finer views and finished pictures, which begin at 20, and averages, which end at 320.
+# Each way has a cell at 5 rays and more, except finer views and finished pictures, which begin at 20, and averages,
+# which end at 320.
 awk -F '|' '/^\| fence, / { for (i = 3; i <= 11; ++i) if ($i !~ /[0-9], [0-9]/ && !($2 ~ / 5 / && i > 7) && !($2 ~ / 1280 / && i == 5)) exit 1; ++rows } END { exit rows != 5 }' \
     all/table.md || fail "a cell is missing: $(cat all/table.md)"
 for way in 'distributed ray tracing, 80 rays' 'denoised ray tracing, 80 rays' 'accumulated lens views, 80 rays' 'centre + 4, lens normal, 256 samples' \
