@@ -38,7 +38,7 @@ function normal(path,    parts, n, i, kept, result) {
     for (i = 1; i <= kept; ++i) result = result (i > 1 ? "/" : "") parts[i]
     return result
 }
-# The file that FILE includes as "NAME": beside it, in tools/, in src/ or from the root.
+# The file that FILE means by "NAME": beside it, in tools/, in src/ or as it stands.
 function included(file, name,    path) {
     path = normal(folder_of(file) "/" name)
     if (path in is_file) return path

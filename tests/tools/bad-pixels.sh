@@ -1,10 +1,10 @@
 #!/bin/bash
-# Values that no picture can mean, through the tools: counted, said in one line, and never spread over a bokeh disc.
+# Invalid values in pictures, through the tools: counted, reported in one line, and never spread over a bokeh disc.
 . "$(dirname "$0")/check.sh"
 lens=(--focal-length 36 --sensor-width 36 --focus-distance 5)
 radius=(--lens-radius 1)
 
-# says_only PATTERN: the last command said one line on stderr, a warning with the pattern in it.
+# says_only PATTERN: the last command printed one line on stderr, a warning that matches the pattern.
 says_only() {
     [ "$(wc -l <stderr)" -eq 1 ] && grep -Eq -e "warning: $1" stderr || fail "not the warning '$1': $(cat stderr)"
 }

@@ -1,15 +1,15 @@
-# What the scripts that test executables share; they begin with
+# Shared by the scripts that test executables; they begin with
 #     . "$(dirname "$0")/check.sh"
-# and are run as `bash SCRIPT BIN_DIR`. Gives $bin, and a scratch folder as the current one, gone at the end.
+# and are run as `bash SCRIPT BIN_DIR`. Sets $bin, and makes a scratch folder the current one, deleted at the end.
 set -euo pipefail
 bin=$(cd "${1:?usage: bash SCRIPT BIN_DIR}" && pwd)
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
-export SPARSELENS_NO_HISTORY=1 # files are compared that another command made
+export SPARSELENS_NO_HISTORY=1 # files from different commands are compared
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
-# Is the laboratory there? It has tools of its own, and a method of dof-gather.
+# Whether the laboratory is there. It has its own tools, and a method of dof-gather.
 lab() { [ -x "$bin/dof-trace" ]; }
 of_lab() { ! lab || echo "$@"; } # of_lab WORD...: these, if so
 
@@ -23,7 +23,7 @@ skip() {
     exit 77
 }
 
-# exits CODE COMMAND...: the command ends with that code; what it says is left in the files stdout and stderr.
+# exits CODE COMMAND...: the command ends with that code; its output is left in the files stdout and stderr.
 exits() {
     local expected=$1 code=0
     shift
@@ -40,12 +40,12 @@ fails_saying() {
     grep -Eq -e "$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
 }
 
-# picture COMMAND...: makes and compares pictures by OpenEXR alone (tests/pictures/main.cpp): neither by what is tested nor by
-# OpenImageIO, which is asked where the question is what other programs see.
+# picture COMMAND...: makes and compares pictures with OpenEXR only (tests/pictures/main.cpp), independently of the code
+# under test. OpenImageIO is used where a test asks what other programs see.
 picture() { "$bin/sparselens-pictures" "$@"; }
 
-# answers_help TOOL [ARGUMENTS...]: --help and --version work, and an unknown option after the arguments that the
-# tool cannot do without is a usage error.
+# answers_help TOOL [ARGUMENTS...]: --help and --version work, and an unknown option after the tool's required arguments
+# is a usage error.
 answers_help() {
     local tool=$1
     shift
@@ -56,5 +56,5 @@ answers_help() {
     fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
-# readme_block LANGUAGE [DOCUMENT]: the contents of all fenced blocks of that language in README.md, or in the document.
+# readme_block LANGUAGE [DOCUMENT]: the contents of all fenced blocks in that language in README.md, or in the document.
 readme_block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/${2:-README.md}"; }

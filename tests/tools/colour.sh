@@ -1,27 +1,27 @@
 # Colour spaces in and out: --colorspace, --colorconfig, $OCIO, file rules, --output-colorspace, --display,
-# --view-transform, and pictures that are no EXR.
+# --view-transform, and pictures that are not EXR.
 #   bash colour.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 config=$source_dir/share/ocio/config.ocio
 unset OCIO
 flat=(--lens-radius 0)
 
-# within A B TOLERANCE WHAT: no value differs by more.
+# within A B TOLERANCE WHAT: no value differs by more than the tolerance.
 within() { picture same "$1" "$2" "$3" >found || fail "$4 ($(cat found))"; }
 differ() { picture differ "$1" "$2" 0.01 || fail "$3 changes nothing"; }
-# By the curves themselves, as the tools do: OpenColorIO 2.5 approximates powers by default.
+# Uses the exact curves, as the tools do: OpenColorIO 2.5 approximates powers by default.
 oiiotool() { OCIO_OPTIMIZATION_FLAGS=0 command oiiotool "$@"; }
 
 oiiotool --pattern fill:topleft=0.1,0.5,0.9,1,2:topright=0.9,0.2,0.1,1,2:bottomleft=0,0,0,1,4:bottomright=1,1,1,1,4 \
     16x12 5 --chnames R,G,B,A,Z -d float -o in.exr
 
-# EXR is scene-linear by the file rules of the configuration that comes with the tools.
+# EXR is scene-linear by the file rules of the tools' own configuration.
 exits 0 "$bin/dof-gather" in.exr -o plain.exr -d float "${flat[@]}" -v
 grep -q 'colour space Linear Rec.709' stderr || fail "-v does not name the space: $(cat stderr)"
 picture edit in.exr expected.exr channels=R,G,B,A
 within plain.exr expected.exr 0 "no colour option"
 
-# --colorspace, as oiiotool converts by the same configuration; depth and coverage stay.
+# --colorspace converts like oiiotool with the same configuration; depth and coverage stay.
 exits 0 "$bin/dof-gather" in.exr -o linear.exr -d float "${flat[@]}" --colorspace sRGB --depth-out depth.exr
 oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert sRGB 'Linear Rec.709' -o expected.exr
 within linear.exr expected.exr 1e-5 "--colorspace sRGB"
@@ -29,7 +29,7 @@ differ linear.exr plain.exr "--colorspace"
 picture edit in.exr expected.exr channels=Z
 within depth.exr expected.exr 0 "--colorspace changes depth"
 
-# The file rules of --colorconfig and of $OCIO; the option goes first.
+# The file rules of --colorconfig and of $OCIO; the option takes precedence.
 sed '/name: OpenEXR/s/colorspace: Linear Rec.709/colorspace: sRGB/' "$config" >encoded.ocio
 exits 0 "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}" --colorconfig encoded.ocio
 within rules.exr linear.exr 0 "the file rules of --colorconfig"
@@ -40,7 +40,7 @@ within rules.exr plain.exr 0 '--colorconfig before $OCIO'
 exits 0 env OCIO=encoded.ocio "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}" --colorspace 'Linear Rec.709'
 within rules.exr plain.exr 0 "--colorspace before the file rules"
 
-# LDIs of ours are scene-linear whatever the rules say: ldi-warp has seen to it.
+# Our own LDIs are scene-linear whatever the rules say, because ldi-warp converted them.
 exits 0 "$bin/ldi-warp" in.exr -o ldi.exr --merge keep --colorspace sRGB
 exits 0 env OCIO=encoded.ocio "$bin/dof-gather" ldi.exr -o warped.exr -d float "${flat[@]}"
 within warped.exr linear.exr 5e-4 "ldi-warp --colorspace"
@@ -48,7 +48,7 @@ exits 0 "$bin/ldi-warp" in.exr -o ldi.exr --merge keep --colorconfig encoded.oci
 exits 0 "$bin/dof-gather" ldi.exr -o warped.exr -d float "${flat[@]}"
 within warped.exr linear.exr 5e-4 "ldi-warp --colorconfig"
 
-# chromaticities name the space of the input, unless --colorspace does. EXR stays in its linear space, and says which.
+# chromaticities name the space of the input, unless --colorspace does. EXR stays in its linear space, and states it.
 chromaticities() { exrheader "$1" | sed -n '/^chromaticities/,/white/p'; }
 oiiotool in.exr --attrib:type=float[8] chromaticities 0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767 -o ap1.exr
 exits 0 "$bin/dof-gather" ap1.exr -o kept.exr -d float "${flat[@]}" -v
@@ -79,8 +79,8 @@ exits 0 "$bin/dof-gather" odd.exr -o x.png "${flat[@]}"
 grep -q 'warning: odd.exr: its chromaticities .*--colorspace' stderr || fail "odd chromaticities: $(cat stderr)"
 rm x.png
 
-# colorInteropID and oiio:ColorSpace name the space after chromaticities, and before the file rules; what was converted does
-# not carry the id of what it was, nor does what goes by chromaticities that say otherwise.
+# colorInteropID and oiio:ColorSpace name the space; chromaticities take precedence, file rules come last. Converted
+# pictures do not keep the old id, nor do pictures whose chromaticities contradict it.
 stated() { exrheader "$1" | sed -nE 's/^(colorInteropID|oiio:ColorSpace) .*: "(.*)"$/\1=\2/p' | tr '\n' ' '; }
 says() { [ "$(stated "$1")" = "$2" ] || fail "$1 says $(stated "$1"), not $2"; }
 picture edit in.exr id.exr set=colorInteropID:lin_ap1_scene set=oiio:ColorSpace:ACEScg
@@ -113,7 +113,7 @@ if grep warning: stderr; then fail "colorInteropID data"; fi
 within x.exr plain.exr 0 "colorInteropID data"
 rm x.exr
 
-# Out: any space, and through a display and a view.
+# Output: any space, and through a display and a view.
 exits 0 "$bin/dof-gather" in.exr -o acescg.exr -d float "${flat[@]}" --output-colorspace ACEScg
 oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert 'Linear Rec.709' ACEScg -o expected.exr
 within acescg.exr expected.exr 1e-5 "--output-colorspace"
@@ -139,7 +139,7 @@ within shown.exr expected.exr 0.0021 "--display"
 exits 0 "$bin/dof-gather" in.exr -o space.png "${flat[@]}" --output-colorspace 'Gamma 2.2'
 if idiff -q -fail 0.01 -warn 0.01 space.png out.png >found 2>&1; then fail "--output-colorspace of a PNG changes nothing"; fi
 
-# Coverage is written where there is any; the data window goes where it belongs in the display window.
+# Coverage is written if there is any; the data window is placed in the display window.
 picture make half.exr 4x4+2+3 frame=10x8 R=0.25 G=0.25 B=0.25 A=0.5 Z=2
 exits 0 "$bin/dof-gather" half.exr -o half.png "${flat[@]}"
 oiiotool --info half.png | grep -q '10 x *8, 4 channel' || fail "half.png: $(oiiotool --info half.png)"
@@ -147,7 +147,7 @@ in_half() { oiiotool --iconfig oiio:UnassociatedAlpha 1 half.png -d float --cut 
 in_half 1x1+3+4 | grep -q 'Stats Avg: 0.73.* 0.50' || fail "coverage: $(in_half 1x1+3+4)"
 in_half 1x1+0+0 | grep -q 'Stats Max: 0.0* 0.0* 0.0* 0.0*' || fail "not black outside"
 
-# What cannot be.
+# Impossible conversions.
 fails_saying 1 "no colour space 'nowhere'" "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorspace nowhere
 fails_saying 1 "no display 'wall'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display wall
 fails_saying 1 "'upside-down'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --view-transform upside-down
@@ -155,7 +155,7 @@ fails_saying 1 'gone.ocio.*--colorconfig' "$bin/dof-gather" in.exr -o x.exr "${f
 fails_saying 1 'gone.ocio.*OCIO' env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorspace sRGB
 exits 1 env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.png "${flat[@]}"
 grep -q '^dof-gather: gone.ocio .*OCIO' stderr || fail "PNG without a configuration: $(cat stderr)"
-# From EXR to EXR a bad $OCIO is a warning, one for all files.
+# From EXR to EXR a bad $OCIO gives one warning for all files.
 exits 0 "$bin/dof-gather" in.exr -o good.exr -d float "${flat[@]}"
 exits 0 env OCIO=gone.ocio "$bin/dof-gather" in.exr -o bad.exr -d float "${flat[@]}"
 within bad.exr good.exr 0 'from EXR to EXR without $OCIO'
@@ -169,13 +169,13 @@ fails_saying 1 'x.png: needs the channels R, G and B' "$bin/dof-gather" in.exr -
 fails_saying 1 'in.exr: cannot create the folder' "$bin/dof-gather" in.exr -o in.exr/x.png "${flat[@]}"
 [ ! -e x.exr ] && [ ! -e x.png ] || fail "a failure wrote something"
 
-# A configuration of OpenColorIO's own is not a file: it is OpenColorIO that answers, since version 2.2 with the picture.
+# A built-in configuration of OpenColorIO is not a file: OpenColorIO answers, with the picture since version 2.2.
 version=$(oiiotool --help | sed -nE 's/^OpenColorIO ([0-9]+\.[0-9]+).*/\1/p')
 [ -n "$version" ] || fail "oiiotool does not tell the version of OpenColorIO"
 if [ "$(printf '%s\n' 2.2 "$version" | sort -V | head -n 1)" = 2.2 ]; then
     exits 0 "$bin/dof-gather" in.exr -o own.exr -d float "${flat[@]}" --colorconfig ocio://default --colorspace 'Linear Rec.709 (sRGB)' \
         --output-colorspace ACEScg
-    within own.exr acescg.exr 1e-4 "ocio://default" # by the same matrix as of our configuration
+    within own.exr acescg.exr 1e-4 "ocio://default" # by the same matrix as in our configuration
 else
     fails_saying 1 'ocio://default' "$bin/dof-gather" in.exr -o own.exr "${flat[@]}" --colorconfig ocio://default
     if grep -q 'no such file' stderr; then fail "ocio://default is taken for a file"; fi

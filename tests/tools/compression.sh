@@ -1,19 +1,19 @@
 #!/bin/bash
-# --compression, and what each kind of output has without it.
+# --compression, and the default of each kind of output.
 . "$(dirname "$0")/check.sh"
 for tool in oiiotool exrheader; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools, openexr)"; done
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 2)
-# As exrheader calls them up to OpenEXR 3.3; later ones write the name first.
+# The names in exrheader up to OpenEXR 3.3; later versions write the name first.
 declare -A called=([none]=none [rle]='run-length encoding' [zips]='zip, individual scanlines' [zip]='zip, multi-scanline blocks'
     [piz]=piz [pxr24]=pxr24 [b44]=b44 [b44a]=b44a [dwaa]='dwa, small scanline blocks' [dwab]='dwa, medium scanline blocks')
-# Those that this OpenEXR has.
+# The methods that this OpenEXR has.
 mapfile -t methods < <("$bin/dof-gather" --help | sed -nE 's/.*--compression ([a-z0-9|]+).*/\1/p' | tr '|' '\n')
 [ ${#methods[@]} -ge 10 ] || fail "--help names the methods ${methods[*]}"
 compression_is() { # FILE METHOD
     exrheader "$1" | grep -x "compression (type compression): \(${called[$2]-}\|$2: .*\)" >said || fail "$1 is not $2: $(exrheader "$1" | grep ^compression)"
 }
 
-# A pattern that halves and DCT coefficients do not hold exactly.
+# A pattern that halves and DCT coefficients cannot store exactly.
 oiiotool --pattern fill:topleft=0.1,0.5,0.2,0.5,4:bottomright=0.9,0.2,0.1,1,4 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
 for method in "${methods[@]}"; do
     oiiotool plain.exr --compression $method -o in.$method.exr
@@ -34,7 +34,7 @@ if lab; then
     compression_is out.exr zip
 fi
 
-# LDIs: zips of flat views, and of a deep file its own.
+# LDIs: zips from flat views; a deep file keeps its own.
 exits 0 "$bin/ldi-warp" in.piz.exr -o zips.exr
 compression_is zips.exr zips
 for method in none rle zips; do
@@ -45,14 +45,14 @@ for method in none rle zips; do
     exits 0 "$bin/ldi-cluster" zips.exr -o out.exr --layers 1 --compression $method
     compression_is out.exr $method
 done
-# A flat picture of a deep file, and what comes through a pipe, have the default.
+# A flat picture from a deep file, and a picture through a pipe, have the default.
 exits 0 "$bin/ldi-warp" plain.exr -o ldi.exr --compression none
 exits 0 "$bin/dof-gather" ldi.exr -o out.exr "${lens[@]}"
 compression_is out.exr zip
 "$bin/ldi-warp" plain.exr -o - | "$bin/ldi-cluster" - -o out.exr --layers 1
 compression_is out.exr zips
 
-# What the kind of output cannot have is wrong usage.
+# A compression that the kind of output cannot have is wrong usage.
 for tool in ldi-warp ldi-cluster; do
     fails_saying 2 "--compression: deep files have one of none, rle, zips, not 'piz'" "$bin/$tool" plain.exr -o x.exr --compression piz
 done

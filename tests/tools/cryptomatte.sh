@@ -1,17 +1,18 @@
 #!/bin/bash
-# Cryptomattes from the views to the picture: the same ids, their coverage through the lens, and what the header says of them.
+# Cryptomattes from the views to the picture: the same ids, their coverage through the lens, and the header's
+# description of them.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.2 --focus-distance 6)
 
-# Object 2.5e+38 at depth 2 on the left, object 1.5 at depth 6 on the right; the header alone names the matte.
+# Object 2.5e+38 at depth 2 on the left, object 1.5 at depth 6 on the right; only the header names the matte.
 names=R,G,B,A,Z,things00.R,things00.G,things00.B,things00.A
 oiiotool --pattern constant:color=1,0,0,1,2,2.5e38,1,0,0 12x16 9 --chnames $names -d float -o left.exr
 oiiotool left.exr --pattern constant:color=0,1,0,1,6,1.5,1,0,0 24x16 9 --chnames $names --paste +0+0 -d float -o plain.exr
 oiiotool plain.exr --attrib cryptomatte/ab12cd3/name things --attrib cryptomatte/ab12cd3/hash MurmurHash3_32 \
     --attrib cryptomatte/ab12cd3/conversion uint32_to_float32 --attrib cryptomatte/ab12cd3/manifest '{"a":"7f000000"}' -o view.exr
 
-# ids FILE: the different values of the id channels of a flat picture.
+# values FILE CHANNEL: the different values of a channel of a flat picture.
 values() { oiiotool "$1" --ch "$2" -o values.exr && oiiotool --dumpdata values.exr; }
 ids() { values "$1" things00.R,things00.B | sed -nE 's/^ *Pixel [^:]*: *//p' | tr -s ' ' '\n' | sed '/^$/d' | sort -u | xargs; }
 expected=$(ids view.exr)
@@ -38,7 +39,7 @@ for method in lens selective $(of_lab scatter); do
     same_ids $method.exr
     grep -q 'R (half).*things00.R (float)' info.txt || fail "-d half makes ids halves: $(grep channel info.txt)"
 done
-# Through the lens both ids have a part of the pixels near the edge; flattened, none has.
+# Through the lens both ids share pixels near the edge; flattened, no pixel is shared.
 mixed() { values "$1" things00.A | grep Pixel | grep -cvE ': *0(\.0*)?$' || true; }
 exits 0 "$bin/dof-gather" clustered.exr -o sharp.exr --lens-radius 0
 same_ids sharp.exr
@@ -49,7 +50,7 @@ if lab; then
     same_ids accumulated.exr
 fi
 
-# --channels takes a whole matte by its name; what would destroy ids is refused.
+# --channels takes a whole matte by its name; requests that would destroy ids are refused.
 exits 0 "$bin/dof-gather" clustered.exr -o one.exr --channels things
 same_ids one.exr
 [ "$(oiiotool --info one.exr | grep -c '4 channel')" -eq 1 ] || fail "--channels things: $(oiiotool --info one.exr)"

@@ -1,10 +1,11 @@
 #!/bin/bash
-# ldi-warp of deep views: alone they stay as they are, flat views add what is hidden, and what cannot be kept is refused.
+# ldi-warp with deep views: alone they stay as they are, flat views add hidden surfaces, and unsupported views are
+# refused.
 # bash deep-views.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 
 same() { picture same "$@" >found 2>&1 || fail "$1 and $2 differ: $(cat found)"; }
-# flattened DEEP: to flat.exr.
+# flattened DEEP: writes flat.exr.
 flattened() { exits 0 "$bin/dof-gather" "$1" --lens-radius 0 -o flat.exr; }
 samples() { picture samples "$1" | cut -d ' ' -f 1; }
 
@@ -14,7 +15,7 @@ for scene in mist grass; do
     flattened $deep
     mv flat.exr centre.exr
 
-    # Alone: tidy, with all channels that the file has.
+    # Alone: tidy, with all channels of the file.
     exits 0 "$bin/ldi-cluster" $deep --tolerance 0 -o tidy.exr
     exits 0 "$bin/ldi-warp" $deep -o alone.exr
     names=R,G,B,A,Z
@@ -22,7 +23,7 @@ for scene in mist grass; do
     same alone.exr tidy.exr $names
     [ "$(samples alone.exr)" -gt 12000 ] || fail "$scene: few samples"
 
-    # Beside others: what the centre view sees has its coverage.
+    # With other views: surfaces that the centre view sees keep its coverage.
     for rim in "$scene/view_?.exr" "$scene/deep_view_?.exr"; do
         exits 0 "$bin/ldi-warp" $deep $rim --stats stats.json -o ldi.exr
         flattened ldi.exr
@@ -34,7 +35,7 @@ for scene in mist grass; do
     done
 done
 
-# better PICTURE THAN BY: by so many dB against the scene's lens.
+# better PICTURE THAN BY: better by this many dB, compared with the scene's reference.
 psnr() { "$bin/dof-compare" "$1" $scene/reference.exr | sed -n 's/^psnr_tonemapped *//p'; }
 better() {
     local one two
@@ -51,9 +52,9 @@ for scene in mist grass; do
     better mixed.exr alone.exr -0.05 # in mist there is nothing to add
     better deep.exr flat.exr 0
 done
-better mixed.exr flat.exr 0 # of grass, which is edges everywhere
+better mixed.exr flat.exr 0 # grass is edges everywhere
 
-# A flat centre view beside deep ones is warned of; what is warped already, or was denoised, is refused.
+# A flat centre view with deep rim views gives a warning; views that are already warped, or denoised, are refused.
 exits 0 "$bin/ldi-warp" mist/center.exr mist/deep_view_0.exr -o ldi.exr
 grep -q 'center.exr: is flat, and .*deep_view_0.exr is deep' stderr || fail "no warning: $(cat stderr)"
 fails_saying 1 'mixed.ldi.exr: is an LDI' "$bin/ldi-warp" mixed.ldi.exr -o out.exr

@@ -1,9 +1,10 @@
 #!/bin/bash
-# ldi-warp --denoised: noise of the views goes, lamps stay; what does not fit is refused in one line. The denoiser is a mean over a square.
+# ldi-warp --denoised: removes the views' noise and keeps lamps; pictures that do not fit are refused in one line. The
+# denoiser is a mean over a square.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 
-# denoise FOLDER: each view of it into FOLDER/NAME.denoised.exr.
+# denoise FOLDER: denoises each view of it into FOLDER/NAME.denoised.exr.
 denoise() {
     local view
     for view in "$1"/center.exr "$1"/view_?.exr; do
@@ -42,13 +43,13 @@ exits 0 "$bin/ldi-warp" center.exr view_0.exr --denoised center.denoised.exr vie
 exits 0 "$bin/ldi-warp" center.####.exr view_0.####.exr --denoised center.denoised.####.exr view_0.denoised.####.exr --frames 7 -o frame.####.ldi.exr
 cmp -s still.ldi.exr frame.0007.ldi.exr || fail "a frame is not what the same still is"
 
-# One file with both, as Cycles writes them, is as good as two.
+# One file with both pictures, as Cycles writes it, is as good as two files.
 for view in "${views[@]}"; do
     oiiotool ${view%.exr}.denoised.exr "$view" --ch "Noisy Image.R=R,Noisy Image.G=G,Noisy Image.B=B" --chappend "$view" --ch A,Z --chappend -o both.$view
 done
 exits 0 "$bin/ldi-warp" "${views[@]}" --denoised "${denoised[@]}" -o two.ldi.exr
 exits 0 "$bin/ldi-warp" "${views[@]/#/both.}" --noisy 'Noisy Image' -o one.ldi.exr
-picture same two.ldi.exr one.ldi.exr R,G,B,A,Z 5e-4 || fail "a file of both gives another LDI than two files" # oiiotool has made floats of the halves
+picture same two.ldi.exr one.ldi.exr R,G,B,A,Z 5e-4 || fail "a file of both gives another LDI than two files" # oiiotool made floats
 fails_saying 1 'both.center.exr: has no channel Noise.R: render' "$bin/ldi-warp" both.center.exr both.view_0.exr --noisy Noise -o no.exr
 
 oiiotool center.exr --ch R,G,B --resize 48x27 -o small.exr

@@ -38,7 +38,7 @@ differ warped.1.exr warped.3.exr "ldi-warp --near"
 differ clustered.1.exr clustered.3.exr "ldi-cluster --near"
 differ compared.1.json compared.3.json "dof-compare --near"
 
-# What is missing or ignored is wrong usage; what is met without the option points to it.
+# Missing or ignored options are wrong usage; depths that need an option give an error that names it.
 fails_saying 2 '--depth normalized: .* 0 and which is 1 is unknown: give --near and --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized
 fails_saying 2 '--depth normalized: .* is unknown: give --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized --near 1
 fails_saying 2 '--near works with --depth normalized and --depth hyperbolic only' "$gather" plain.exr -o x.exr "${lens[@]}" --near 1

@@ -1,6 +1,6 @@
 #!/bin/bash
-# dof-gather --device and ldi-warp --device: the words, the machines without a GPU or without Vulkan, and what a device in
-# software makes.
+# dof-gather --device and ldi-warp --device: the values, machines without a GPU or without Vulkan, and the results of a
+# software device.
 . "$(dirname "$0")/check.sh"
 gather=$bin/dof-gather
 unset SPARSELENS_DEVICE
@@ -13,7 +13,7 @@ noise rim.exr 2 42
 warp=("$bin/ldi-warp" input.exr --view 0.02,0 rim.exr --focal-length 50 --sensor-width 36 --focus-distance 5)
 exits 0 "${warp[@]}" -o expected-ldi.exr
 
-# A loader that cannot be loaded is none.
+# A loader that cannot be loaded counts as missing.
 mkdir broken
 for name in libvulkan.so libvulkan.so.1; do echo none >broken/$name; done
 without_loader() { LD_LIBRARY_PATH=$PWD/broken exits "$@"; }
@@ -31,7 +31,7 @@ LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulk
     "$gather" input.exr "${lens[@]}" -o x.exr --device gpu
 LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulkan gives access to no device here' \
     "${warp[@]}" -o x.exr --device gpu
-# -v says what Vulkan did: a loader that cannot be loaded, drivers that do not work.
+# -v reports Vulkan's problems: a loader that cannot be loaded, drivers that do not work.
 without_loader 1 "$gather" input.exr "${lens[@]}" -o x.exr --device gpu -v
 grep -Eq '^dof-gather: no device by Vulkan: .*load' stderr || fail "a broken loader: $(cat stderr)"
 echo '{"file_format_version": "1.0.0", "ICD": {"library_path": "./none.so", "api_version": "1.3.0"}}' >broken/driver.json
@@ -40,7 +40,7 @@ grep -Eq '^dof-gather: no device by Vulkan: .*(Driver|driver)' stderr || fail "a
 without_loader 0 "$bin/ldi-warp" --device list
 [ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "ldi-warp --device list: $(cat stdout)"
 SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used' "$gather" input.exr "${lens[@]}" -o x.exr
-# Nor is a driver that is not there a device.
+# A missing driver gives no device either.
 VK_DRIVER_FILES=none.json VK_ICD_FILENAMES=none.json exits 0 "$gather" --device list
 [ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "--device list without a driver: $(cat stdout)"
 ! lab || fails_saying 2 '--device no-such.* works with --method lens and --method selective only' "$gather" input.exr "${lens[@]}" -o x.exr --method scatter --device no-such
@@ -58,7 +58,7 @@ SPARSELENS_DEVICE=$name exits 0 "$gather" input.exr "${lens[@]}" -o again.exr -v
 grep -q "^dof-gather: device: $name" stderr || fail "\$SPARSELENS_DEVICE: $(cat stderr)"
 cmp -s again.exr out.exr || fail "the device's picture is another one every time"
 
-# Two frames over one file, held out.
+# Two frames from one file, with a holdout.
 exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$name" --holdout input.exr --spherical 0.5 -v
 [ "$(grep -c 'gathered by the device: 6 of 6' stderr)" -eq 2 ] || fail "tiles of two frames: $(cat stderr)"
 [ "$(grep -o 'uploaded to the device: .* MB' stderr | tail -n 1)" = 'uploaded to the device: 0.0 MB' ] ||
@@ -72,7 +72,7 @@ exits 0 "$gather" input.exr "${lens[@]}" -o out.exr --method selective --layers 
 grep -qx 'dof-gather: tiles gathered by the device: 15 of 15' stderr || fail "--method selective: $(cat stderr)"
 picture same out.exr expected.exr 1e-4 >differ || fail "the device's selective picture: $(cat differ)"
 
-# The device's samples are those of the CPU, of each frame of a range.
+# The device's samples equal those of the CPU, in each frame of a range.
 fails_saying 1 "device no-such: no device has that name; there is " "${warp[@]}" -o x.exr --device no-such
 exits 0 "${warp[@]}" -o out.exr --device "$name" -v
 grep -q "^ldi-warp: device: $name" stderr || fail "ldi-warp --device $name: $(cat stderr)"

@@ -1,12 +1,12 @@
 #!/bin/bash
-# dof-compare from the shell: what it prints, and what each option changes.
+# dof-compare from the shell: its output, and the effect of each option.
 . "$(dirname "$0")/check.sh"
 for tool in oiiotool idiff; do
     command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"
 done
 compare=$bin/dof-compare
 
-# figure KEY [REGION]: a number out of the JSON in the file stdout.
+# figure KEY [REGION]: prints a number from the JSON in the file stdout.
 figure() {
     python3 -c 'import json, sys
 figures = json.load(open("stdout"))
@@ -36,7 +36,7 @@ constant b.exr 0.5,0.5,0.5,1 32x20
 exits 0 "$compare" a.exr b.exr --json
 is psnr 12.0412
 is psnr_tonemapped "$(awk 'BEGIN { d = (0.75 / 1.75)^(1 / 2.2) - (0.5 / 1.5)^(1 / 2.2); print -20 * log(d) / log(10) }')"
-is psnr_worst "$(figure psnr_tonemapped)" # as everywhere
+is psnr_worst "$(figure psnr_tonemapped)" # the same everywhere
 is relmse 0.240385
 is smape 0.198413
 is p99 0.25
@@ -50,7 +50,7 @@ is psnr_tonemapped null
 is ssim 1
 ! grep flip stdout || fail "tells what was not asked"
 
-# FLIP, of greys by their lightness L* to the power 0.7, where 41.276 is the most that colours differ.
+# FLIP of greys depends on their lightness L* to the power 0.7; 41.276 is the largest difference of colours.
 flip_of_greys() { awk -v a="$1" -v b="$2" 'BEGIN { print 0.95 * (116 * (a^(1 / 3) - b^(1 / 3)))^0.7 / (0.4 * 41.276) }'; }
 grey=$(flip_of_greys 0.75 0.5)
 exits 0 "$compare" a.exr b.exr --json --flip ldr --flip-map map.exr
@@ -60,28 +60,28 @@ picture same expected.exr map.exr 0.0005 || fail "--flip-map holds something els
 exits 0 "$compare" a.exr b.exr --flip ldr --flip-map map.png
 grep -Eq "^flip +${grey:0:4}" stdout || fail "no flip in the table: $(cat stdout)"
 oiiotool --info map.png >/dev/null || fail "--flip-map writes no PNG"
-exits 0 "$compare" a.exr b.exr --json --flip hdr # the curve of film shows the median of the reference as 0.85
+exits 0 "$compare" a.exr b.exr --json --flip hdr # the film curve shows the reference's median as 0.85
 is flip "$(flip_of_greys "$(awk 'BEGIN { x = 1.5 * 2.118869; print (0.9036 * x + 0.018) * x / ((0.8748 * x + 0.354) * x + 0.14) }')" 0.85)" "" 0.0005
 exits 0 "$compare" a.exr a.exr --json --flip hdr
 is flip 0
 fails_saying 2 'ldr.*sdr|hdr.*sdr' "$compare" a.exr b.exr --flip sdr
 fails_saying 2 flip "$compare" a.exr b.exr --flip-map map.exr
 
-# The table says the same.
+# The table has the same figures.
 exits 0 "$compare" a.exr b.exr
 grep -Eq '^psnr +12.0412$' stdout || fail "no psnr in the table: $(cat stdout)"
 grep -Eq '^nonfinite \(image\) +0$' stdout || fail "no count in the table: $(cat stdout)"
 [ ! -s stderr ] || fail "says on stderr: $(cat stderr)"
 
-# PSNR and the largest error as idiff sees them.
+# PSNR and the largest error, compared with idiff.
 for i in 1 2; do picture make n$i.exr 64x48 R=noise:1$i G=noise:2$i B=noise:3$i 'R*=0.9' half=; done
 idiff n1.exr n2.exr >idiff.txt || true
 exits 0 "$compare" n1.exr n2.exr --json
 is psnr "$(sed -n 's/.*Peak SNR = //p' idiff.txt)"
 is max "$(sed -n 's/.*Max error  = \([^ ]*\).*/\1/p' idiff.txt)" "" 1e-6
 
-# Pictures brighter than 1, as they are and tone-mapped by oiiotool, by idiff's root mean square: its own PSNR takes
-# their largest value for the peak. idiff prints six digits.
+# Pictures brighter than 1, as they are and tone-mapped by oiiotool, compared with idiff's root mean square: its own
+# PSNR uses their largest value as the peak. idiff prints six digits.
 exits 0 "$bin/dof-trace" fence --size 96x54 --views 0 --reference 16 -d float -o few
 exits 0 "$bin/dof-trace" fence --size 96x54 --views 0 --reference 256 -d float --seed 1 -o many
 for rays in few many; do
@@ -93,7 +93,7 @@ exits 0 "$compare" few/reference.exr many/reference.exr --json
 is psnr "$(decibels few.exr many.exr)" "" 0.0002
 is psnr_tonemapped "$(decibels few-toned.exr many-toned.exr)" "" 0.0002
 
-# Pixels that are not finite are counted and left out.
+# Non-finite pixels are counted and left out.
 picture edit b.exr bad.exr fill=1x1+3+4 R=inf
 exits 0 "$compare" bad.exr b.exr --json
 is nonfinite '{"image": 1, "reference": 0}'
@@ -104,7 +104,7 @@ exits 0 "$compare" b.exr bad.exr --json
 is nonfinite '{"image": 0, "reference": 1}'
 is relmse 0
 
-# The reference's data window; what A lacks is transparent black.
+# Uses the reference's data window; pixels that A lacks are transparent black.
 picture edit b.exr right.exr crop=16x20+16+0
 exits 0 "$compare" right.exr b.exr --json
 is pixels 640
@@ -131,8 +131,8 @@ is flip "$grey" in_focus 0.0005
 exits 0 "$compare" a.exr b.exr --regions ldi.exr "${lens[@]}"
 head -1 stdout | grep -Eq 'all +in_focus +blurred +silhouettes' || fail "no columns: $(head -1 stdout)"
 
-# Each lens option changes what the regions are.
-changes() { # PIXELS REGION OPTIONS...: with these options a region has so many pixels
+# Each lens option changes the regions.
+changes() { # with these options a region has this many pixels
     regions ldi.exr "${@:3}"
     is pixels "$1" "$2"
 }
@@ -152,7 +152,7 @@ near=$(awk 'BEGIN { for (x = 0; x < 16; ++x) for (y = 0; y < 20; ++y)
 [ "$near" -lt 320 ] || fail "the picture is too small for --depth distance to show"
 changes "$near" in_focus --focal-length 36 --sensor-width 36 --lens-radius 1.8 --focus-distance 5 --depth distance
 
-# The lens may come from the LDI's metadata, the regions from a deep file; what is missing is named.
+# The lens may come from the LDI's metadata, the regions from a deep file; missing values are named.
 oiiotool ldi.exr --attrib:type=float pinholeFocalLength 36 --attrib:type=float sparselens:sensorWidth 36 \
     --attrib:type=float aperture 0.02 --attrib:type=float focus 5 --chnames R,G,B,A,Z,other --deepen -o deep.exr
 regions deep.exr
@@ -171,7 +171,7 @@ cmp -s one.json stdout || fail "threads change figures"
 "$compare" - n2.exr --json <n1.exr >piped.json || fail "cannot read standard input"
 cmp -s one.json piped.json || fail "another result from standard input"
 
-# What cannot be compared.
+# Impossible comparisons.
 fails_saying 1 'none.exr' "$compare" none.exr b.exr
 echo text >text.exr
 fails_saying 1 'text.exr' "$compare" a.exr text.exr
@@ -183,7 +183,7 @@ fails_saying 2 REF "$compare" a.exr
 fails_saying 2 'twice' "$compare" - -
 echo "dof-compare: fine"
 
-# Two references: without their noise the error is what it is; where it is below what they can tell, it says so.
+# Two references: without their noise the error is correct; if it is below their resolution, the tool says so.
 exits 0 "$bin/dof-trace" fence --size 64x36 --views 0 --halves 512 --reference 1024 -d float -o noisy
 picture edit noisy/reference.exr wrong.exr 'R*=1.3' 'G*=1.3' 'B*=1.3'
 "$compare" wrong.exr noisy/reference.exr >figures
@@ -201,7 +201,8 @@ cmp -s stdout one-way.json || fail "the order of references matters"
 fails_saying 1 'n1.exr' "$compare" wrong.exr noisy/rays_1.exr n1.exr
 fails_saying 2 'REF_2' "$compare" 's.####.exr' 's.####.exr' 's.####.exr' --frames 1-3
 
-# --frames: how steady a sequence is. Of three pixels one stays, one changes evenly, one pops in the last frame.
+# --frames: the steadiness of a sequence. Of three pixels one is constant, one changes evenly, one jumps in the last
+# frame.
 frame() { picture make "$1" 3x1 R=0.5 G=0.5 B=0.5 A=1 fill=1x1+1+0 R=$2 G=$2 B=$2 fill=1x1+2+0 R=$3 G=$3 B=$3; }
 frame s.0001.exr 0.50 0.5
 frame s.0002.exr 0.51 0.5

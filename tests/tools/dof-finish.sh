@@ -1,5 +1,5 @@
 #!/bin/bash
-# dof-finish from the shell: nearer to the truth than what it is given, what each option changes, and how it fails.
+# dof-finish from the shell: nearer to the truth than its inputs, the effect of each option, and its failures.
 . "$(dirname "$0")/check.sh"
 finish=$bin/dof-finish
 answers_help dof-finish a.exr b.exr c.exr -o out.exr
@@ -14,7 +14,7 @@ holds() { awk "BEGIN { exit !($1) }" || fail "not so: $1: $2"; }
 same() { picture same "$1" "$2" ${4:-0} >found || fail "$3: $(cat found)"; }
 differ() { picture differ "$1" "$2" >found || fail "$3: $(cat found)"; }
 
-# Nearer to the truth than both, and it says how near.
+# Nearer to the truth than both inputs, and it estimates how near.
 exits 0 "$finish" gathered.exr $one $two -o out.exr --stats stats.json -v
 grep -Eq '^dof-finish: estimated error: [0-9.]+ dB$' stderr || fail "-v: $(cat stderr)"
 picture edit $one one.exr erase=sparselens:samples
@@ -28,7 +28,7 @@ grep -Eq '"kept":0\.[0-9]+' stats.json || fail "--stats: $(cat stats.json)"
 exits 0 "$finish" gathered.exr $one $two -o again.exr --threads 1
 cmp -s out.exr again.exr || fail "--threads 1 and --stats change the picture"
 
-# Maps, and how many rays a goal takes.
+# Maps, and the number of rays for a goal.
 exits 0 "$finish" gathered.exr $one $two -o trust.exr --show trust
 exits 0 "$finish" gathered.exr $one $two -o error.exr --show error
 differ trust.exr error.exr "--show"
@@ -46,7 +46,7 @@ grep -Eq "^dof-finish: $near dB: about 1\.[0-9] times the rays\$" stderr || fail
 exits 0 "$finish" gathered.exr $one $two -o goal.exr --goal 20
 grep -qx 'dof-finish: 20 dB: reached' stderr || fail "--goal 20: $(cat stderr)"
 
-# The headers say how many samples; where they do not, all count the same.
+# The headers state the number of samples; if they do not, all renders count the same.
 exits 0 "$finish" gathered.exr $one $two -o stated.exr --samples 40,40
 same stated.exr out.exr "--samples as the headers say"
 exits 0 "$finish" gathered.exr $one $two -o unequal.exr --samples 64,16
@@ -57,7 +57,7 @@ grep -q 'do not say how many samples' stderr || fail "-v of unknown samples: $(c
 fails_saying 2 '--samples.*1 numbers for 2 renders' "$finish" gathered.exr $one $two -o x.exr --samples 3
 for value in 0,4 a,b -1,2; do fails_saying 2 '--samples' "$finish" gathered.exr $one $two -o x.exr --samples=$value; done
 
-# More renders and other pictures to choose from: the truth itself is the best of them.
+# More renders and other pictures to choose from: the truth itself is the best choice.
 exits 0 "$finish" gathered.exr $one $two $one $two -o four.exr
 same four.exr out.exr "the same rays twice" 0.01
 exits 0 "$finish" gathered.exr $one $two --gathered $truth -o other.exr
@@ -66,7 +66,7 @@ exits 0 "$finish" gathered.exr $one $two --denoised $truth,$truth -o denoised.ex
 same denoised.exr other.exr "--denoised and --gathered of the same pictures"
 fails_saying 2 '--denoised.*1 pictures for 2 renders' "$finish" gathered.exr $one $two -o x.exr --denoised $one
 
-# Frames, pipes, pictures for the screen, types, names of files.
+# Frames, pipes, pictures for the screen, types, file names.
 for frame in 1 2; do cp gathered.exr g.000$frame.exr && cp $one a.000$frame.exr && cp $two b.000$frame.exr; done
 exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2
 same f.0001.exr out.exr "--frames"
@@ -105,7 +105,7 @@ for input in --denoised=$one,b.0001.exr --gathered=b.0001.exr; do
     fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
 done
 
-# What is not finite stays as gathered; alpha and depth come out as they are.
+# Non-finite pixels stay as gathered; alpha and depth are unchanged.
 picture edit $one nan.exr fill=3x3+50+40 R=nan
 exits 0 "$finish" gathered.exr nan.exr $two -o mended.exr
 grep -Eq '^dof-finish: .*9 pixels of the renders are missing or not finite: they stay as gathered$' stderr || fail "NaN: $(cat stderr)"
@@ -113,7 +113,7 @@ for at in 50,40 52,42; do picture pixel mended.exr $at R,G,B | grep -qi nan && f
 holds "$(decibels mended.exr $truth) > $db - 0.2" "NaN costs little"
 same mended.exr gathered.exr "alpha stays" "A 1e-5"
 
-# A mistake is named: another exposure, half a pixel; and none where there is none.
+# Mistakes are named: another exposure, half a pixel; and none if there is none.
 [ -z "$(grep warning stderr | grep -v 'not finite')" ] || fail "warns of a good picture: $(cat stderr)"
 picture edit gathered.exr stop.exr 'R*=2' 'G*=2' 'B*=2'
 exits 0 "$finish" stop.exr $one $two -o x1.exr
@@ -123,7 +123,7 @@ oiiotool gathered.exr moved.exr --add --mulc 0.5 -o half.exr
 exits 0 "$finish" half.exr $one $two -o x1.exr
 grep -Eq '^dof-finish: warning: the gathered picture lies about 0.[3-7] pixels to the right' stderr || fail "half a pixel: $(cat stderr)"
 
-# Another lens is named by the headers, with both values; a render whose header is silent is not.
+# The headers reveal another lens, which is named with both values; a header that says nothing gives no warning.
 for lens in '--fstop 0.2857 0.3 aperture.of.60.mm.radius,.not.63' '--focus-distance 5.15 5 focus.at.5.m,.not.5.15'; do
     read -r option wrong right text <<<"$lens"
     exits 0 "$bin/dof-gather" ldi.exr -o wrong.exr "$option" "$wrong"

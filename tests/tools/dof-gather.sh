@@ -1,11 +1,11 @@
 #!/bin/bash
-# dof-gather from the shell: what it writes, what each option changes, and how it fails.
+# dof-gather from the shell: its output, the effect of each option, and its failures.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 gather=$bin/dof-gather
 answers_help dof-gather in.exr -o out.exr
 
-# The centre view with a further layer, so that layers can be told apart.
+# The centre view with a further layer, so that layers can be distinguished.
 layered() { picture edit "$1" "$2" channels=R,G,B,A,Z,copy.R=R,copy.G=G half= float=Z; }
 layered views/center.exr center.exr
 for i in 0 1 2 3; do layered views/view_$i.exr view_$i.exr; done
@@ -14,7 +14,7 @@ exits 0 "$bin/ldi-warp" center.exr view_?.exr --merge keep -o keep.exr
 oiiotool keep.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib worldToNDC --eraseattrib 'pinhole.*' \
     --eraseattrib 'sparselens:.*' -o nolens.exr
 
-# What it writes: the centre view's windows, its channels as half, the camera; no depth.
+# Its output: the centre view's windows, its channels as half, the camera; no depth.
 exits 0 "$gather" ldi.exr -o out.exr
 [ ! -s stdout ] && [ ! -s stderr ] || fail "talks: $(cat stdout stderr)"
 says out.exr '^type .*"scanlineimage"'
@@ -24,7 +24,7 @@ for channel in R G B A copy.R copy.G; do says out.exr "^ +$channel, 16-bit float
 says out.exr '^focus .*: 5$'
 if exrheader out.exr | grep -q '^ *Z,'; then fail "a gathered picture has a depth"; fi
 
-# A lens of no radius gives the flattened LDI, bit for bit, and needs no other value.
+# A lens of radius 0 gives the flattened LDI, bit for bit, and needs no other value.
 exits 0 "$gather" keep.exr -o pinhole.exr --lens-radius 0
 same_pixels pinhole.exr center.exr "--lens-radius 0"
 exits 0 "$gather" keep.exr -o pinhole.exr --fstop inf
@@ -38,7 +38,7 @@ same_pixels pinhole.exr flat.exr "averaged, --lens-radius 0"
 exits 0 "$gather" center.exr -o pinhole.exr --lens-radius 0
 same_pixels pinhole.exr center.exr "a flat picture"
 
-# changes OPTIONS...: they give another picture than without.
+# changes OPTIONS...: the picture differs from the one without them.
 changes() {
     exits 0 "$gather" ldi.exr -o changed.exr "$@"
     differ changed.exr out.exr "$*"
@@ -102,7 +102,7 @@ for type in blue-yellow green-magenta; do
     differ $type.exr red-blue.exr "--axial-chromatic-type $type"
 done
 
-# Looks under a name: by the f-number, beaten by options.
+# Looks by name: they depend on the f-number, and options override them.
 echo '{"name": "Test lens", "blades": 5, "spherical": {"0.2": 0.5, "0.4": 0.1}, "aperture": "aperture.exr"}' >lens.json
 fails_saying 1 'none.json' "$gather" ldi.exr -o x.exr --lens none.json
 exits 0 "$gather" ldi.exr -o lens.exr --lens lens.json --squeeze 1
@@ -140,7 +140,7 @@ for method in selective $(of_lab scatter); do
     done
 done
 
-# The blades, their rotation and the squeeze may stand in the header, as the script for Blender writes them.
+# The blades, their rotation and the squeeze may be in the header, as the script for Blender writes them.
 oiiotool ldi.exr --attrib:type=int aperture_blades 5 --attrib:type=float aperture_rotation 0.5 \
     --attrib:type=float aperture_ratio 1.5 -o said.exr
 exits 0 "$gather" said.exr -o by-header.exr
@@ -152,11 +152,11 @@ picture same overruled.exr out.exr 0.01 >/dev/null || fail "options do not beat 
 exits 0 "$gather" said.exr -o selective.exr --method selective
 grep -q "warning: method selective ignores the aperture's shape" stderr || fail "no warning: $(cat stderr)"
 
-# A wider lens than the views stood on is a warning, in one line.
+# A wider lens than the views' gives a warning, in one line.
 exits 0 "$gather" ldi.exr -o wide.exr --lens-radius 0.09
 grep -q '^dof-gather: warning: the aperture is larger' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"
 
-# --focus-pixel takes the depth of what is in front there.
+# --focus-pixel uses the depth of the front sample there.
 exits 0 "$gather" ldi.exr -o pixel.exr --focus-pixel 1,0 --depth-out depth.exr
 exits 0 "$gather" ldi.exr -o distance.exr --focus-distance 18
 same pixel.exr distance.exr "--focus-pixel on the wall"
@@ -165,7 +165,7 @@ fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel 1000,100
 fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel -1000,-1
 fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 1,0 --focus-distance 3
 
-# -v says which distance that is.
+# -v prints that distance.
 exits 0 "$gather" ldi.exr -o x.exr --focus-pixel 1,0 -v
 grep -qx 'dof-gather: the focus distance is 18, the depth of pixel 1,0' stderr || fail "-v does not say the distance: $(cat stderr)"
 
@@ -176,7 +176,7 @@ picture same depth.exr views/center.exr Z || fail "--depth-out is not the centre
 fails_saying 2 '--depth-out' "$gather" keep.exr -o x.exr --depth-out x.exr
 rm x.exr
 
-# --channels: names, layers, rgba; what is left is as it was.
+# --channels: names, layers, rgba; the remaining channels are unchanged.
 names() { exrheader "$1" | sed -nE 's/^ +([A-Za-z.]+), (16|32)-bit.*/\1/p' | tr '\n' ' '; }
 chosen() { # LIST NAMES
     exits 0 "$gather" ldi.exr -o chosen.exr --channels "$1"
@@ -190,11 +190,12 @@ picture same out.exr chosen.exr R,copy.G || fail "--channels changes what is lef
 chosen A A
 fails_saying 2 "'depth'" "$gather" ldi.exr -o x.exr --channels R,depth
 
-# A layer is gathered as the colours are.
+# A layer is gathered like the colours.
 picture edit out.exr a.exr channels=R=copy.R,G=copy.G
 picture same a.exr out.exr R,G || fail "a copy of red is not gathered as red is"
 
-# --lens-point: what one point of the lens sees. To the right of the middle, what is before focus moves to the left.
+# --lens-point: the view through one point of the lens. To the right of the middle, objects before focus move to the
+# left.
 exits 0 "$gather" ldi.exr -o right.exr --lens-point 1,0
 exits 0 "$gather" ldi.exr -o left.exr --lens-point -1,0
 differ right.exr left.exr "--lens-point"
@@ -207,7 +208,7 @@ for point in 1,1 0.72,0.72 nan,0; do
 done
 fails_saying 2 'lens-point.*method lens' "$gather" ldi.exr -o y.exr --lens-point 0,1 --method selective
 
-# --show: what the tool understood, in colours; the picture is not gathered.
+# --show: information in false colours; the picture is not gathered.
 pixel() { picture pixel "$1" "$2,$3" R,G,B,A; }
 for what in coc focus layers tiles; do
     exits 0 "$gather" ldi.exr -o show.$what.exr --show $what -d float
@@ -231,7 +232,7 @@ fails_saying 2 '--show tiles' "$gather" ldi.exr -o y.exr --show tiles --method s
 fails_saying 2 '--show.*coc' "$gather" ldi.exr -o y.exr --show me
 rm x.exr
 
-# -d float is what -d half was rounded from.
+# -d half is the rounded result of -d float.
 exits 0 "$gather" ldi.exr -o float.exr -d float
 says float.exr '^ +R, 32-bit floating-point'
 picture edit float.exr rounded.exr half=
@@ -246,7 +247,7 @@ exits 0 "$gather" float.ldi.exr -o half.exr -d half
 says half.exr '^ +R, 16-bit floating-point'
 same_pixels half.exr out.exr "-d half of float"
 
-# What the chosen method would ignore is refused.
+# Options that the chosen method would ignore are refused.
 for text in '--quality final --method selective' '--layer-tolerance 1 --method selective' '--lens-samples 9 --method selective' '--holdout ldi.exr --method selective'; do
     # shellcheck disable=SC2086
     fails_saying 2 "^dof-gather: ${text%% *}: works with --method lens only" "$gather" ldi.exr -o y.exr $text
@@ -256,7 +257,7 @@ for method in lens $(of_lab scatter); do
 done
 fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gather" ldi.exr -o y.exr --layers 2
 
-# An option that is given twice is named with what it was given; -- ends options.
+# An option given twice is named with its values; -- ends options.
 fails_saying 2 '^dof-gather: --fstop is given 2 times, with the values 2, 4: give it once' "$gather" -v ldi.exr -o y.exr --fstop 2 --fstop 4
 fails_saying 2 '^dof-gather: --output is given 2 times, with the values y.exr, z.exr' "$gather" ldi.exr -o y.exr -o z.exr
 fails_saying 2 '^dof-gather: --output is required' "$gather" -- ldi.exr
@@ -272,7 +273,7 @@ for name in -v --quality=final; do
     [ ! -s stderr ] || fail "-- $name is not a name: $(cat stderr)"
 done
 
-# Threads do not matter, whatever the method; -v changes no picture.
+# The number of threads does not matter, for any method; -v changes no picture.
 for method in lens selective $(of_lab scatter); do
     exits 0 "$gather" ldi.exr -o one.exr --threads 1 --method $method
     exits 0 "$gather" ldi.exr -o two.exr --threads 2 --method $method -v
@@ -282,7 +283,7 @@ done
 # Each lens value: the option, else the metadata, else an error that names the option.
 lens=(--focal-length 36 --sensor-width 36 --fstop 0.30000001192092896 --focus-distance 5 --scene-unit 1)
 exits 0 "$gather" nolens.exr -o options.exr "${lens[@]}"
-picture edit options.exr options.exr half= # oiiotool made all channels of nolens.exr float
+picture edit options.exr options.exr half= # oiiotool converted all channels of nolens.exr to float
 exits 0 "$gather" keep.exr -o metadata.exr
 same_pixels options.exr metadata.exr "lens by options and by metadata"
 without() {
@@ -295,7 +296,7 @@ without() {
 for option in --focal-length --sensor-width --fstop --focus-distance; do without $option; done
 refuses_wrong_lenses "$gather" ldi.exr -o x.exr
 
-# What the depth channel holds, and which it is.
+# The meaning of the depth channel, and its choice.
 for z in 4 0.25; do
     picture make z$z.exr 5x5 R=0.5 G=0.5 B=0.5 A=1 Z=$z
 done
@@ -325,7 +326,7 @@ cp ldi.exr ./"-it's \"odd\".exr"
 exits 0 "$gather" -o "out put.exr" -- "-it's \"odd\".exr"
 same "out put.exr" out.exr "odd names"
 
-# An output that is an input, by whatever name, is refused before anything is read or written.
+# An output that is an input, under any name, is refused before anything is read or written.
 cp ldi.exr input.exr
 cp ldi.exr input.copy.exr
 ln -s input.exr soft.exr
@@ -344,7 +345,7 @@ same input.exr input.copy.exr "refused outputs"
 [ ! -e x.exr ] || fail "a refused command wrote x.exr"
 exits 0 "$gather" ldi.exr -o /dev/null --depth-out /dev/null
 
-# Failures: one line, exit 1, the old output as it was.
+# Failures: one line, exit 1, the old output unchanged.
 fails_saying 1 'missing.exr: cannot open: No such file' "$gather" missing.exr -o x.exr
 exits 0 "$gather" ldi.exr -o new/folder/x.exr --depth-out other/folder/z.exr
 same new/folder/x.exr out.exr "folders are made"
@@ -357,7 +358,7 @@ survives_failure "$gather" cut.exr
 fails_saying 2 '--output' "$gather" ldi.exr
 fails_saying 2 'IN' "$gather" -o x.exr
 
-# Highlights that grow: what is above the threshold, by the gain, from the threshold over the knee.
+# Highlight gain: light above the threshold is multiplied by the gain, with a transition over the knee.
 picture make lights.exr 32x16 R=0.5 G=0.5 B=0.5 A=1 Z=5 fill=8x8+4+4 R=4 G=4 B=4
 level() { picture pixel "$1" 7,7 R; }
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3

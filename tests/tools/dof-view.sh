@@ -1,5 +1,5 @@
 #!/bin/bash
-# dof-view: what its pages are answered and refused, that what they show is what dof-gather writes, whatever the options, and
+# dof-view: the answers and refusals to its pages, that they show the same as dof-gather writes with any options, and
 # the page in a browser.
 . "$(dirname "$0")/check.sh"
 answers_help dof-view ldi.exr
@@ -7,15 +7,16 @@ exits 0 "$bin/dof-trace" fence --size 160x90 --spp 2 --views 2 --reference 16 -o
 exits 0 "$bin/ldi-warp" center.exr view_*.exr -o ldi.exr
 helpers=$source_dir/tests/viewing
 export PYTHONDONTWRITEBYTECODE=1
-# says OPTIONS...: what a page is told of the lens with these options.
+# says OPTIONS...: prints the lens facts that a page gets with these options.
 says() { exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from served import served
 with served(*sys.argv[2:]) as server: print(server.picture(settings={})[0])' "$helpers" "$bin/dof-view" ldi.exr "$@"; }
-# agree OPTIONS...: its picture is, byte by byte, dof-gather's with the same options, and so is that of the command it copies.
+# agree OPTIONS...: its picture equals, byte by byte, dof-gather's with the same options, and so does that of the copied
+# command.
 agree() { exits 0 python3 "$helpers/agree.py" "$bin" ldi.exr "$@"; }
 
 exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr
 
-# Each option is dof-gather's.
+# All options of dof-gather work.
 agree
 agree --fstop 0.5 --focus-distance 2.5 --quality final
 agree --lens-radius 0.05 --focus-pixel 80,45 --quality draft --threads 1
@@ -64,7 +65,7 @@ cp center.exr hold.0001.exr
 cp shot.0002.exr hold.0002.exr
 agree_frames --holdout hold.####.exr --holdout-defocused --quality final
 
-# Its own.
+# The tool's own options.
 says --port 0 -v
 grep -q "'largest_coc'" stdout || fail "says $(cat stdout)"
 says --frames 1-3 --fstop 1:2,3:4

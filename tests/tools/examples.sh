@@ -1,5 +1,5 @@
 #!/bin/bash
-# The examples of --help: every tool has some, the manual page has the same, and each runs as it stands.
+# The examples of --help: every tool has some, the manual page has the same, and each runs as shown.
 . "$(dirname "$0")/check.sh"
 export PATH=$bin:$PATH
 
@@ -20,7 +20,7 @@ dof-gather ldi.exr -o picture.exr
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced
 
-# What takes long, or does not end, has a script of its own.
+# Tools that take long, or do not end, have their own scripts.
 elsewhere='^dof-(report|view) '
 ran=0
 for tool in "$bin"/dof-* "$bin"/ldi-*; do

@@ -1,5 +1,5 @@
-# Files as others write them: several parts, one a layer or one a view, tiles, every compression; the sky as each
-# renderer has it, and the cameras of renderers; the views of stereo files, coloured alpha, and the history of a picture.
+# Files by other programs: several parts, one per layer or per view, tiles, every compression; the sky in each
+# renderer's form, and renderers' cameras; the views of stereo files, coloured alpha, and the history of a picture.
 #   bash files.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 flat=(--lens-radius 0 -d float)
@@ -12,7 +12,7 @@ picture edit rgba.exr diffuse.exr channels=R,G,B 'R*=0.5' 'G*=0.5' 'B*=0.5'
 oiiotool rgba.exr depth.exr --chappend -d float -o one.exr
 exits 0 "$bin/dof-gather" one.exr -o expected.exr "${flat[@]}"
 
-# One part a layer: their channels become layers; the beauty goes first wherever it stands.
+# One part per layer: their channels become layers; the beauty comes first wherever it is.
 part() { oiiotool "$1" --sattrib oiio:subimagename "$2" "${@:4}" -d float -o "$3"; } # FILE NAME OUT [oiiotool...]
 part rgba.exr rgba p_rgba.exr
 part depth.exr depth p_depth.exr
@@ -26,7 +26,7 @@ picture edit out.exr cut.exr channels=R=diffuse.R,G=diffuse.G,B=diffuse.B
 same cut.exr diffuse.exr "a layer's part"
 same z.exr depth.exr "depth in a part of its own"
 
-# A picture of another format is named as what it is; from a pipe, too.
+# A picture in another format is reported with its format, also from a pipe.
 oiiotool one.exr --ch R,G,B -o view.png
 for tool in ldi-warp ldi-plan dof-gather; do
     fails_saying 1 "^$tool: view.png: is a PNG picture, and EXR is needed: render to EXR" "$bin/$tool" view.png -o x.exr
@@ -39,7 +39,7 @@ fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --le
 printf 'P6 2 2 255 abcdefghijkl' >view.ppm
 fails_saying 1 'view.ppm: not an EXR file' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
 
-# One part a view: the first view is the picture.
+# One part per view: the first view is the picture.
 part rgba.exr rgba.left l_rgba.exr --sattrib view left
 part depth.exr depth.left l_depth.exr --sattrib view left
 part diffuse.exr rgba.right r_rgba.exr --sattrib view right
@@ -52,7 +52,7 @@ exits 0 "$bin/ldi-warp" stereo.exr -o ldi.exr --merge keep
 exits 0 "$bin/dof-gather" ldi.exr -o out.exr "${flat[@]}"
 picture same out.exr expected.exr 1e-3 || fail "ldi-warp of two views"
 
-# --stereo-view: another one, in every tool that reads pictures.
+# --stereo-view: another view, in every tool that reads pictures.
 cp diffuse.exr right.exr
 exits 0 "$bin/dof-gather" stereo.exr -o out.exr "${flat[@]}" --stereo-view right
 [ "$(names out.exr)" = "B G R " ] || fail "the right view: $(names out.exr)"
@@ -76,7 +76,7 @@ done
 fails_saying 1 'left, right' "$bin/dof-compare" stereo.exr stereo.exr --stereo-view middle
 fails_saying 1 "one.exr: .*names no views" "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --stereo-view left
 
-# --stereo-view all: one run for each view, the same as naming it; %V is the name.
+# --stereo-view all: one run for each view, the same as naming it; %V is its name.
 exits 0 "$bin/dof-gather" stereo.exr -o 'eye.%V.exr' "${flat[@]}" --stereo-view all
 for eye in left right; do
     exits 0 "$bin/dof-gather" stereo.exr -o one-eye.exr "${flat[@]}" --stereo-view $eye
@@ -85,7 +85,7 @@ done
 fails_saying 2 'put %V' "$bin/dof-gather" stereo.exr -o x.exr "${flat[@]}" --stereo-view all
 fails_saying 1 'one.exr: it names no stereo views' "$bin/dof-gather" one.exr -o 'x.%V.exr' "${flat[@]}" --stereo-view=all
 fails_saying 2 'needs the name of the input' "$bin/dof-gather" - -o 'x.%V.exr' "${flat[@]}" --stereo-view all
-# The help is the answer to --help, whatever else is asked for; an error in the words is reported once.
+# --help is answered in any combination; an error in the words is reported once.
 "$bin/dof-gather" stereo.exr --stereo-view all --help >help 2>stderr || fail "--stereo-view all --help fails"
 grep -qF "dof-gather [OPTIONS] " help && [ ! -s stderr ] || fail "--stereo-view all --help: $(cat stderr)"
 [ "$(grep -cF "dof-gather [OPTIONS] " help)" = 1 ] || fail "the help is printed twice"
@@ -101,8 +101,8 @@ exits 0 "$bin/dof-gather" multiview.exr -o out.exr "${flat[@]}" --stereo-view ri
 same out.exr right.exr "another view of a part"
 fails_saying 1 'left, right' "$bin/dof-gather" multiview.exr -o x.exr "${flat[@]}" --stereo-view middle
 
-# Coloured alpha: each colour is attenuated by its own, as OpenImageIO has it (whose AR, AG, AB then add up to more
-# than 1: those are not compared); ldi-cluster makes one sample of both.
+# Coloured alpha: each colour is attenuated by its own alpha, as in OpenImageIO (whose AR, AG, AB then add up to more
+# than 1, so they are not compared); ldi-cluster makes one sample of both.
 pane() { # VALUES DEPTH OUT
     oiiotool --pattern constant:color="$1,$2" 8x4 7 --chnames R,G,B,AR,AG,AB,Z -d float --deepen:z="$2" -o "$3"
 }
@@ -122,7 +122,7 @@ exits 0 "$bin/dof-gather" less.exr -o out.exr "${flat[@]}" --channels R,G
 [ "$(names out.exr)" = "G R " ] || fail "--channels R,G: $(names out.exr)"
 picture same out.exr oiio.exr R,G 1e-3 || fail "clustered coloured alpha"
 
-# Deep parts: their samples are merged, as oiiotool --deepmerge has it.
+# Deep parts: their samples are merged, as by oiiotool --deepmerge.
 oiiotool glass.exr --sattrib oiio:subimagename glass -o p_glass.exr
 oiiotool wall.exr --sattrib oiio:subimagename wall -o p_wall.exr
 oiiotool p_wall.exr p_glass.exr --siappendall -o parts.exr
@@ -131,7 +131,7 @@ grep -q '2 deep parts are merged' stderr || fail "-v does not say that parts are
 picture edit out.exr cut.exr channels=R,G,B
 same cut.exr oiio.exr "two deep parts"
 
-# The history of a picture is in its metadata, a line a command, as oiiotool writes it; through pipes too.
+# The history of a picture is in its metadata, one line per command, in oiiotool's form; through pipes too.
 history() { exrheader "$1" | awk '/^Exif:ImageHistory/ { on = 1; sub(/^[^"]*"/, "") } on { last = sub(/"$/, ""); print; on = !last }'; }
 oiiotool one.exr --sattrib shot "sq01" --nosoftwareattrib --sattrib Exif:ImageHistory "render shot" -o 'centre view.exr'
 chain() {
@@ -164,7 +164,7 @@ export SPARSELENS_NO_HISTORY=1
 exits 0 "$bin/dof-gather" 'centre view.exr' -o again.exr --lens-radius 0
 cmp -s out.exr again.exr || fail "\$SPARSELENS_NO_HISTORY is not --no-history"
 
-# Tiles and compressions that lose nothing.
+# Tiles and lossless compressions.
 for how in '--tile 8 8' '--compression none' '--compression rle' '--compression zips' '--compression piz'; do
     # shellcheck disable=SC2086
     oiiotool one.exr $how -o how.exr
@@ -172,7 +172,7 @@ for how in '--tile 8 8' '--compression none' '--compression rle' '--compression 
     same out.exr expected.exr "$how"
 done
 
-# The sky: whatever is written for it gives the picture of infinity. --far: the far clip is sky too.
+# The sky: any of its usual values gives the picture of infinity. --far: the far clip is sky too.
 lens=(--focal-length 50 --sensor-width 36 --fstop 0.5 --focus-distance 4 -d float)
 sky() { # DEPTH TYPE OUT: the left half at depth 4, the right half sky
     picture make "$3" 24x16 R=0.5 G=0.25 B=1 A=1 Z=$1 "$2=Z" fill=12x16 Z=4
@@ -196,7 +196,7 @@ fails_saying 2 '--far' "$bin/ldi-cluster" sky.exr -o x.exr --layers 1 --far 0
 fails_saying 2 '--far' "$bin/ldi-plan" sky.exr -o x.json --far 0
 fails_saying 2 '--far' "$bin/dof-compare" sky.exr sky.exr --far 0
 
-# A renderer's camera: found, said, and where it contradicts itself, an error that names the option.
+# A renderer's camera: found and reported; if it contradicts itself, an error names the option.
 picture edit one.exr vray.exr set=cameraFocalLength:50 set=cameraFov:39.6 set=cameraFNumber:0.5
 exits 0 "$bin/dof-gather" vray.exr -o out.exr -d float --focus-distance 4 -v
 grep -q 'focal length 50 (cameraFocalLength)' stderr || fail "-v does not say what was found: $(cat stderr)"
@@ -210,7 +210,7 @@ exits 0 "$bin/dof-gather" both.exr -o out.exr -d float --focus-distance 4 --foca
 picture same out.exr options.exr 1e-4 || fail "--focal-length settles it"
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 
-# No tool of the chain overwrites what it reads; a second name of the file makes no difference.
+# No tool of the chain overwrites its input, even under a second name.
 cp one.exr kept.exr
 ln -s one.exr soft.exr
 known=(--lens-radius 0.1 --focal-length 50 --sensor-width 36 --focus-distance 4)

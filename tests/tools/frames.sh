@@ -1,5 +1,5 @@
 #!/bin/bash
-# Ranges of frames, what is up to date, progress for farms and threads: the options that all tools of the chain share.
+# Ranges of frames, up-to-date checks, progress for farms and threads: the options that all tools of the chain share.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 gather=$bin/dof-gather
@@ -7,7 +7,7 @@ exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o ldi.exr
 pull=("$gather" ldi.exr -o pull.####.exr --frames 1-24 --focus-distance 1:5.0,24:2.0)
 count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
 
-# A pull of focus over one LDI, which is read once; each frame is the picture of its own focus distance.
+# A focus pull over one LDI, which is read once; each frame equals the picture at its own focus distance.
 exits 0 "${pull[@]}" -v
 [ "$(count 'pull.????.exr')" -eq 24 ] || fail "not 24 frames: $(ls)"
 [ "$(grep -c 'reading ldi.exr' stderr)" -eq 1 ] || fail "the LDI is not read once: $(cat stderr)"
@@ -24,7 +24,7 @@ exits 0 "$gather" ldi.exr -o radius.%d.exr --frames 1,3 --lens-radius 1:0.06,3:0
 exits 0 "$gather" ldi.exr -o one.exr --lens-radius 0
 same radius.3.exr one.exr "--lens-radius by frame"
 
-# wait_for PROCESS COMMAND...: until the command succeeds; fails if the process ends before.
+# wait_for PROCESS COMMAND...: waits until the command succeeds; fails if the process ends first.
 wait_for() {
     while ! "${@:2}"; do
         kill -0 "$1" 2>/dev/null || "${@:2}" || fail "the tool ended early: ${*:2} ($(cat tool.err))"
@@ -32,7 +32,7 @@ wait_for() {
     done
 }
 
-# A frame is written while the next one is at work: who reads the first waits until the second is gathered.
+# A frame is written while the next one is worked on: the reader of the first waits until the second is gathered.
 if [ "$(nproc)" -gt 1 ]; then
     mkfifo aside.0001.exr
     "$gather" ldi.exr -o aside.####.exr --frames 1-3 --focus-distance 1:5,3:2 -v 2>tool.err &
@@ -46,8 +46,8 @@ if [ "$(nproc)" -gt 1 ]; then
     exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2
     same aside.0003.exr one.exr "the last frame after one written aside"
 
-    # Frames of files of their own are worked on beside each other: who writes the third input waits until it is read, and writes the
-    # second only then. What they say comes in their order all the same, and the pictures are those of one thread.
+    # Frames of separate files are worked on at the same time: the writer of the third input waits until it is read, and
+    # only then writes the second. Messages still come in order, and the pictures equal those of one thread.
     for n in 1 2 3 4; do
         exits 0 "$bin/ldi-cluster" ldi.exr -o own.000$n.exr --tolerance $((n * n))
         [ $n -eq 2 ] || [ $n -eq 3 ] || ln own.000$n.exr in.000$n.exr
@@ -65,7 +65,7 @@ if [ "$(nproc)" -gt 1 ]; then
 else
     echo "skipped: frames written aside: there is one core"
 fi
-# So are those of a warp; a frame that fails ends the range, or is left out, and nothing of later ones is written.
+# The same for warps. A frame that fails ends the range, or is left out, and nothing of later frames is written.
 for n in 1 2 3 4 5; do cp views/center.exr c.000$n.exr; done
 : >c.0003.exr
 for threads in 0 1; do
@@ -77,7 +77,7 @@ for threads in 0 1; do
     same w.0005.exr ldi.exr "ldi-warp of frames"
     rm w.????.exr
 done
-# A frame that cannot be written ends the range before anything of the next is written; --skip-bad-frames goes on.
+# A frame that cannot be written ends the range before the next one is written; --skip-bad-frames continues.
 mkdir unwritten.0002.exr
 for threads in 0 1; do
     fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --threads $threads
@@ -88,7 +88,7 @@ for threads in 0 1; do
 done
 rm -r unwritten.*.exr
 
-# -u leaves alone what is up to date: what was killed in the middle is finished, nothing else is touched.
+# -u keeps up-to-date files: an interrupted range is completed, and nothing else is touched.
 rm pull.*.exr
 "${pull[@]}" --lens-samples 4096 2>tool.err &
 process=$!
@@ -121,8 +121,8 @@ touch ldi.exr
 exits 0 "${pull[@]}" -v
 if grep -q 'up to date' stderr; then fail "without -u frames are left out"; fi
 
-# -u redoes what another command made, by the history of the output; where there is none, it says so, once.
-done_by() { # FRAMES COMMAND...: so many frames are made again
+# -u redoes files that another command made, by the output's history; if there is none, it says so, once.
+done_by() { # this many frames are made again
     exits 0 "${@:2}" -u -v
     [ "$((4 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: ${*:2} ($(cat stderr))"
 }
@@ -144,7 +144,7 @@ done_by 0 "${few[@]}" --focus-distance 5 --no-history
 grep -q 'warning: -u did not compare the options of few.0001.exr' stderr || fail "--no-history -u: $(cat stderr)"
 export SPARSELENS_NO_HISTORY=1
 
-# Keys: thousands of them, in a file too; pixels by frame.
+# Keys: thousands of them, also in a file; pixels by frame.
 seq 0 5000 | awk '{ printf "%s%d:%.3f", (NR > 1 ? "," : ""), $1, 2 + $1 / 10 }' >keys.txt
 exits 0 "$gather" ldi.exr -o keys.#.exr --frames 3,7 --focus-distance "$(cat keys.txt)"
 exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2.3
@@ -178,8 +178,8 @@ exits 0 "$gather" cluster.10-11#.exr -o out.1-2%02d.exr --depth-out z.1-2#.exr
 exits 0 "$bin/ldi-plan" %04d/center.%04d.exr -o plan.#.json --frames 10-11
 [ "$(count 'plan.001?.json')" -eq 2 ] || fail "plans of a sequence: $(ls)"
 
-# Every engine's spelling of a range, negative frames too, in --frames and in names.
-frames() { # "NUMBERS" COMMAND...: so many pictures, of those numbers
+# Every engine's spelling of a range, including negative frames, in --frames and in names.
+frames() { # this many pictures, with those numbers
     exits 0 "${@:2}"
     [ "$(ls spelt)" = "$(printf '%s.exr\n' $1 | sort)" ] || fail "not $1: ${*:2} ($(ls spelt))"
     rm -r spelt
@@ -195,13 +195,13 @@ frames '-001 0001' "${still[@]}" spelt/-1-1:2#.exr
 frames '1 3 6 7' "${still[@]}" spelt/1,3,6-7%d.exr
 frames '-5 -4' "${still[@]}" spelt/-5--4%d.exr
 
-# A frame that fails ends the work, or is left out; the exit code says so.
+# A frame that fails ends the work, or is left out; the exit code shows it.
 fails_saying 1 '^dof-gather: frame 12: cluster.0012.exr: cannot open' "$gather" cluster.#.exr -o bad.#.exr --frames 10-13
 [ "$(count 'bad.*.exr')" -eq 2 ] || fail "it goes on after a frame that fails: $(ls bad.*)"
 fails_saying 1 'frame 12: cluster.0012.exr' "$gather" cluster.#.exr -o skip.#.exr --frames 10-13 --skip-bad-frames
 [ "$(count 'skip.*.exr')" -eq 3 ] || fail "--skip-bad-frames: $(ls skip.*)"
 
-# Wrong usage is said before the first frame is written.
+# Wrong usage is reported before the first frame is written.
 for text in '--frames abc' '--frames 1-' '--frames 1-2000000' '--frames 1-3 --focus-distance 1:5,1:6' '--progress rings' \
     '--frames 1-3 --focus-distance 1:5,3:-1' '--frames 1-3 --fstop 1:a,2:3'; do
     # shellcheck disable=SC2086
@@ -213,7 +213,7 @@ fails_saying 2 'wrong.exr would be written 3 times' "$gather" ldi.exr -o wrong.e
 fails_saying 2 'no.####.exr stands for a sequence' "$gather" no.####.exr -o wrong.exr
 [ "$(count 'wrong*')" -eq 0 ] || fail "wrong usage writes $(ls wrong*)"
 
-# Nor is any frame's input the output of another frame, whether it exists or not.
+# No frame's input may be the output of another frame, whether it exists or not.
 cp ldi.exr chain.0001.exr
 fails_saying 2 'chain.0001.exr would overwrite the input chain.0001.exr' "$bin/ldi-cluster" chain.#.exr -o chain.#.exr --frames 1-2
 fails_saying 2 'chain.0002.exr would overwrite the input chain.0002.exr' "$bin/ldi-cluster" chain.1-2#.exr -o chain.2-3#.exr
@@ -221,7 +221,7 @@ fails_saying 2 'chain.0002.exr would overwrite the input ./chain.0002.exr' "$bin
 cmp -s ldi.exr chain.0001.exr || fail "an input was overwritten"
 [ ! -e chain.0002.exr ] || fail "a refused command wrote chain.0002.exr"
 
-# As RV and Houdini write it; a single @ is a part of a name.
+# Spelled as in RV and Houdini; a single @ belongs to a name.
 exits 0 "$bin/ldi-cluster" cluster.@@@@.exr -o 'houdini.$F4.exr' --tolerance 1 --frames 10-11
 [ -e houdini.0010.exr ] && [ -e houdini.0011.exr ] || fail "@@@@ and \$F4: $(ls)"
 exits 0 "$bin/ldi-cluster" one.exr -o shot@2x.exr --tolerance 1
@@ -232,8 +232,8 @@ exits 0 "$gather" 'take#2.exr' -o one.exr
 exits 0 "$gather" ldi.exr -o two.exr
 same one.exr two.exr "a name with a #"
 
-# Progress for farms: over all frames, growing, each percent once, to the end; by itself nothing is said.
-progress() { # FORMAT PATTERN COMMAND...: on stderr nothing but lines of the pattern, whose group is the percent.
+# Progress for farms: over all frames, increasing, each percent once, to the end; nothing by default.
+progress() { # only lines of the pattern on stderr; its group is the percentage
     local format=$1 pattern=$2
     shift 2
     exits 0 "$@" --progress "$format"

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Damaged files through every tool that reads EXR: the tool ends by itself within 40 s of a core with exit 0 or 1, a failure
-# is one line on stderr that names the file, memory stays under 1 GB, and an output is whole or not there, an older
-# one untouched. Files: those of ../shared/damaged where they are at hand, truncations of valid files at every
-# kilobyte, and valid files whose headers lie. Prints the tally.
+# Damaged files through every tool that reads EXR: the tool ends by itself within 40 s of a core with exit code 0 or 1,
+# a failure is one line on stderr that names the file, memory stays under 1 GB, and an output is whole or missing, and
+# an older one untouched. Files: those of ../shared/damaged if they are there, truncations of valid files at every
+# kilobyte, and valid files with false headers. Prints the tally.
 #
 #   bash hostile.sh BIN_DIR [FILE...]     FILE: these files alone
 . "$(dirname "$0")/check.sh"
@@ -10,8 +10,8 @@
 [ -x "$bin/dof-trace" ] || skip "needs dof-trace"
 shift
 ulimit -c 0
-shopt -s nullglob # a process less a run, and there are a thousand runs
-# The slowest run takes 3.4 s of a core. On a loaded machine that may be minutes, so what waits for something has ten.
+shopt -s nullglob # saves a process per run, with a thousand runs
+# The slowest run takes 3.4 s of a core. On a loaded machine that may be minutes, so waits have ten minutes.
 seconds=${SPARSELENS_HOSTILE_SECONDS:-40} kilobytes=${SPARSELENS_HOSTILE_KB:-1000000} # sanitizers need more
 lens=(--focal-length 36 --sensor-width 36 --focus-distance 5 --lens-radius 0.05)
 faults=0 runs=0 failures=0 largest=0
@@ -23,7 +23,7 @@ fault() {
     head -c 600 said >&2
 }
 
-# Exit code of the tool in $code, what it said in said, its memory in $memory (KB).
+# Puts the tool's exit code into $code, its output into the file said, its memory into $memory (KB).
 timed() {
     code=0
     (ulimit -t "$seconds" && exec timeout -s KILL 600 /usr/bin/time -q -o memory -f %M "$@" >/dev/null 2>said </dev/null) || code=$?
@@ -32,7 +32,7 @@ timed() {
     memory=${memory##*$'\n'}
 }
 
-# hostile FILE TOOL ARGUMENTS...: with -o out/x.exr, where an older output stands.
+# hostile FILE TOOL ARGUMENTS...: with -o out/x.exr, where an older output exists.
 hostile() {
     local file=$1 tool=$2
     shift 2
@@ -61,9 +61,9 @@ hostile() {
     [ "${left[*]}" = out/x.exr ] || { fault "$tool leaves ${left[*]}: $file"; rm -rf out; }
 }
 
-# In a frame of 65536 pixels, of which the file has 48, blur is in pixels of the frame, and its picture grows by as much: to
-# 882x863 by the lens above, which is a picture like any other. The selective method takes time as the blur's area, so its lens is a
-# fifth as wide.
+# In a frame of 65536 pixels, of which the file has 48, blur is in pixels of the frame, and the picture grows by as
+# much: to 882x863 by the lens above, which is an ordinary picture. The selective method takes time proportional to the
+# area of the blur, so its lens is a fifth as wide.
 every_tool() {
     local file=$1
     hostile "$file" dof-gather "$file" "${lens[@]}"
@@ -76,7 +76,7 @@ every_tool() {
     hostile "$file" dof-compare "$file" "$file" --regions "$file" "${lens[@]}"
 }
 
-# truncations FILE NAME: every kilobyte, and a few odd ends.
+# truncations FILE NAME: at every kilobyte, and at a few odd sizes.
 truncations() {
     local size bytes
     size=$(stat -c %s "$1")
@@ -85,13 +85,13 @@ truncations() {
     done
 }
 
-# with_bytes FILE OFFSET HEX OUT: the file with other bytes from there on.
+# with_bytes FILE OFFSET HEX OUT: the file with other bytes from that offset.
 with_bytes() {
     cp "$1" "$4"
     printf '%b' "$(sed 's/../\\x&/g' <<<"$3")" | dd of="$4" bs=1 seek="$2" conv=notrunc status=none
 }
 
-# Where the value of an attribute begins: after its name, its type (each with its zero) and four bytes of size.
+# The offset of an attribute's value: after its name, its type (each with its zero) and four bytes of size.
 value_of() { # FILE NAME TYPE
     local at
     at=$(grep -obUaP -- "$2\\x00$3\\x00" "$1" | head -n 1 | cut -d: -f1)
@@ -138,7 +138,7 @@ tally() { # NAME FOLDER
     : >tally.txt
 }
 
-# A valid file that packs its pixels denser than the memory limit allows: refused, unless --max-memory says more.
+# A valid file with more pixels per byte than the memory limit allows: refused, unless --max-memory permits more.
 dense_file() {
     picture make dense.exr 3000x2500 R=0 G=0 B=0 A=1 Z=5 half=R,G,B,A
     fails_saying 1 'dense.exr: asks for [0-9]+ MB of memory.*--max-memory' "$bin/dof-gather" dense.exr -o x.exr --lens-radius 0

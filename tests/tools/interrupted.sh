@@ -1,8 +1,8 @@
 #!/bin/bash
-# Tools that are stopped, or cannot write: the old output is intact or the new one complete, nothing else is left
-# beside it but after SIGKILL, and what that leaves is known by its name (.NAME.PID-N.partial).
+# Tools that are stopped, or cannot write: the old output is intact or the new one complete, and nothing else is left
+# beside it except after SIGKILL, whose leftovers are recognised by their name (.NAME.PID-N.partial).
 #
-#   bash interrupted.sh BIN_DIR [KILLS]     KILLS: so many of each signal, at random moments (5; 25 for a release)
+#   bash interrupted.sh BIN_DIR [KILLS]     KILLS: number of each signal, at random moments (5; 25 for a release)
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 kills=${2:-5}
@@ -13,7 +13,7 @@ exits 0 "$bin/ldi-warp" large/center.exr large/view_?.exr -o ldi.exr
 warp=("$bin/ldi-warp" large/center.exr large/view_?.exr)
 gather=("$bin/dof-gather" ldi.exr)
 
-# fresh: a folder out/ with an older picture in it.
+# fresh: makes a folder out/ with an older picture in it.
 fresh() {
     rm -rf out
     mkdir out
@@ -21,14 +21,14 @@ fresh() {
 }
 sound() { [ "$(head -c 3 out/x.exr)" = old ] || cmp -s out/x.exr "$1"; }
 
-# How long the command takes, microseconds.
+# The duration of the command in microseconds.
 time_of() {
     local start=${EPOCHREALTIME/./}
     "$@" 2>/dev/null
     echo $((${EPOCHREALTIME/./} - start))
 }
 
-# killed SIGNAL EXPECTED COMMAND...: stopped at a random moment of its run; EXPECTED is what it writes when left alone.
+# killed SIGNAL EXPECTED COMMAND...: stops it at a random moment of its run; EXPECTED is its output if left alone.
 old_left=0 new_there=0 partial_left=0
 killed() {
     local signal=$1 expected=$2 process moment
@@ -65,7 +65,7 @@ for signal in TERM KILL HUP; do
 done
 echo "$((old_left + new_there)) kills: old file intact $old_left, new file complete $new_there; after SIGKILL $partial_left partial files"
 
-# Failures to write: exit 1, one line that names the file, the old file untouched, nothing left.
+# Failures to write: exit 1, one line that names the file, the old file untouched, nothing left behind.
 untouched() {
     [ "$(cat out/x.exr)" = old ] || fail "the old file is gone: $1"
     [ "$(ls -A out)" = x.exr ] || fail "left behind: $(ls -A out): $1"
@@ -109,7 +109,7 @@ ln -s same.exr link.exr
 exits 0 "$bin/dof-gather" ldi.exr -o link.exr
 cmp -s same.exr gathered.exr && [ -L link.exr ] || fail "output by a link"
 
-# Names are names: nothing in them is run or taken for an option after --.
+# Any name works: nothing in it is executed, or taken for an option after --.
 names=("with space.exr" "quote'\".exr" $'new\nline.exr' '-dash.exr' '$(touch run).exr' '`touch run`.exr' ';touch run;.exr'
     '*.exr' '%s%n.exr' $'\e[31m.exr' "$(printf 'x%.0s' {1..250}).exr")
 for name in "${names[@]}"; do

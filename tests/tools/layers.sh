@@ -1,12 +1,12 @@
 #!/bin/bash
-# Files as other renderers write them: the beauty in a layer, several pictures in one file, parts of different data windows.
+# Files by other renderers: the beauty in a layer, several pictures in one file, parts with different data windows.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 gather=$bin/dof-gather
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 2)
 same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
 
-# A multilayer file gives the picture of the same channels under plain names, and says what it took.
+# A multilayer file gives the same picture as plain channel names, and reports which layer it used.
 oiiotool --pattern fill:topleft=0.1,0.5,0.2,0.5,1:bottomright=0.9,0.2,0.1,1,4 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
 oiiotool plain.exr --chnames ViewLayer.Combined.R,ViewLayer.Combined.G,ViewLayer.Combined.B,ViewLayer.Combined.A,ViewLayer.Depth.Z \
     -o blender.exr
@@ -21,7 +21,7 @@ grep -q 'coverage: ViewLayer.Combined.A$' stderr || fail "ldi-warp -v: $(cat std
 same out.ldi.exr expected.ldi.exr "ldi-warp takes another beauty"
 exits 0 "$gather" blender.exr -o out.png "${lens[@]}"
 
-# Two pictures in one file, as Blender writes two view layers: each by its own depth, and none by chance.
+# Two pictures in one file, as Blender writes two view layers: each uses its own depth, and one must be chosen.
 near=(Z=1.5 B=0.9)
 for name in fg bg; do
     colours=(R=0.1 G=0.5)
@@ -63,7 +63,7 @@ for name in fg bg; do
     grep -q '"psnr": null' stdout || fail "dof-compare --layer $name: $(cat stdout)"
 done
 fails_saying 2 'holds several pictures' "$bin/dof-compare" two.exr two.exr
-# --layer all: one run for each, the same as naming it; %L is the name.
+# --layer all: one run for each layer, the same as naming it; %L is its name.
 exits 0 "$gather" two.exr -o 'each.%L.exr' "${lens[@]}" --layer all
 for name in fg bg; do same each.$name.exr expected.$name.exr "--layer all, $name"; done
 exits 0 "$bin/ldi-warp" two.exr -o 'each.%L.ldi.exr' --layer all
@@ -74,7 +74,7 @@ done
 fails_saying 2 'put %L' "$gather" two.exr -o x.exr "${lens[@]}" --layer all
 fails_saying 1 'plain.exr: it has one picture' "$gather" plain.exr -o 'x.%L.exr' "${lens[@]}" --layer=all
 
-# Layers of which none has such a name are a warning; the error about depth lists the channels.
+# If no layer has such a name, there is a warning; the error about depth lists the channels.
 picture edit plain.exr diffuse.exr channels=diffuse.R=R,diffuse.G=G,diffuse.B=B,diffuse.A=A,Z
 exits 0 "$gather" diffuse.exr -o out.exr "${lens[@]}"
 grep -q 'warning: diffuse.exr: no layer is named as the beauty.*its layers are diffuse:' stderr || fail "no warning: $(cat stderr)"
@@ -95,7 +95,7 @@ exits 0 "$gather" united.exr -o expected.exr "${lens[@]}"
 exits 0 "$gather" parts.exr -o out.exr "${lens[@]}"
 same out.exr expected.exr "parts of two data windows"
 
-# Numbers of objects are ids where their layer is named so: no pixel holds the mean of two. -v says what happens to each layer.
+# Object numbers are ids if the layer's name says so: no pixel holds a mean of two. -v says what happens to each layer.
 picture make ids.exr 48x32 R=0.2 G=0.5 B=0.1 A=1 Z=1.5 ViewLayer.IndexOB.X=1 ViewLayer.Vector.X=1 fill=16x16+16+8 Z=9 ViewLayer.IndexOB.X=2 ViewLayer.Vector.X=2
 exits 0 "$bin/ldi-warp" ids.exr -o ids.ldi.exr
 for input in ids.exr ids.ldi.exr; do

@@ -1,5 +1,5 @@
 #!/bin/bash
-# ldi-cluster from the shell: what it writes, what each option changes, and how it fails.
+# ldi-cluster from the shell: its output, the effect of each option, and its failures.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 cluster=$bin/ldi-cluster
@@ -12,7 +12,7 @@ oiiotool ldi.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib worldTo
 
 fewer() { [ "$(total "$1")" -lt "$(total "$2")" ] || fail "$1 has $(total "$1") samples, $2 $(total "$2"): $3"; }
 
-# What it writes, everybody reads.
+# All tools can read its output.
 exits 0 "$cluster" ldi.exr -o out.exr
 [ ! -s stdout ] && [ ! -s stderr ] || fail "talks: $(cat stdout stderr)"
 exits 0 oiiotool --info -v out.exr
@@ -22,7 +22,7 @@ for attribute in 'focus .*: 5$' 'aperture .*: 0.3$' worldToCamera sparselens:len
     says out.exr "^$attribute"
 done
 
-# --tolerance: 0 merges nothing; the more, the fewer samples; 0.25 is the default.
+# --tolerance: 0 merges nothing; larger values leave fewer samples; 0.25 is the default.
 exits 0 "$cluster" ldi.exr -o t0.exr --tolerance 0
 same_samples t0.exr ldi.exr "--tolerance 0"
 exits 0 "$cluster" ldi.exr -o t.exr --tolerance 0.25
@@ -33,7 +33,7 @@ fewer t1.exr t0.exr "--tolerance 1"
 fewer t9.exr t1.exr "--tolerance 9"
 for value in abc nan -1 inf; do fails_saying 2 "--tolerance.*$value" "$cluster" ldi.exr -o x.exr --tolerance $value; done
 
-# --layers: no pixel has more, and what was seen from the front is still seen.
+# --layers: no pixel has more, and surfaces visible from the front stay visible.
 [ "$(most ldi.exr)" -gt 2 ] || fail "the LDI has too few samples to test with: $(most ldi.exr)"
 for layers in 1 2; do
     exits 0 "$cluster" keep.exr -o layers.exr --layers $layers
@@ -45,7 +45,7 @@ exits 0 "$cluster" ldi.exr -o layers.exr --layers 0
 same layers.exr out.exr "--layers 0 is no limit"
 for value in abc -1 1.5; do fails_saying 2 "--layers.*$value" "$cluster" ldi.exr -o x.exr --layers $value; done
 
-# The tolerance needs the lens, and each lens value counts; the number of layers does not need it.
+# The tolerance needs the lens, and each lens value matters; the number of layers does not need it.
 lens=(--focal-length 36 --sensor-width 36 --fstop 0.3 --focus-distance 5 --scene-unit 1)
 exits 0 "$cluster" nolens.exr -o layers_only.exr --layers 2 -v
 grep -q 'the lens is unknown' stderr || fail "-v says of pixels without a lens: $(cat stderr)"
@@ -68,7 +68,7 @@ exits 0 "$cluster" ldi.exr -o pinhole.exr --lens-radius 0
 [ "$(most pinhole.exr)" -eq 1 ] || fail "a pinhole needs one layer, not $(most pinhole.exr)"
 refuses_wrong_lenses "$cluster" ldi.exr -o x.exr
 
-# Flat pictures with depth are LDIs of one layer; what the depth channel holds can be said.
+# Flat pictures with depth are LDIs of one layer; options give the meaning of the depth channel.
 for z in 4 0.25; do
     picture make z$z.exr 3x3 R=0.5 G=0.5 B=0.5 A=1 Z=$z
 done
@@ -82,7 +82,7 @@ exits 0 "$cluster" named.exr -o by_name.exr --layers 1 --depth-channel far.away
 same_samples planar.exr by_name.exr "--depth-channel"
 fails_saying 1 'named.exr.*--depth-channel' "$cluster" named.exr -o x.exr --layers 1
 
-# Threads do not matter; -v says how far samples moved.
+# The number of threads does not matter; -v reports how far samples moved.
 for threads in 1 2; do
     exits 0 "$cluster" ldi.exr -o threads.exr --threads $threads
     same threads.exr out.exr "$threads threads"
@@ -103,7 +103,7 @@ cp ldi.exr same.exr
 fails_saying 2 "would overwrite the input same.exr" "$cluster" same.exr -o same.exr
 same same.exr ldi.exr "a refused output"
 
-# Failures: one line, exit 1, the old output as it was.
+# Failures: one line, exit 1, the old output unchanged.
 fails_saying 1 'missing.exr: cannot open: No such file' "$cluster" missing.exr -o x.exr
 fails_saying 1 'ldi.exr: cannot create the folder' "$cluster" ldi.exr -o ldi.exr/x.exr
 head -c 9000 ldi.exr >cut.exr
@@ -115,7 +115,7 @@ fails_saying 2 '--output' "$cluster" ldi.exr
 fails_saying 2 'IN' "$cluster" -o x.exr
 fails_saying 1 'other.exr: cannot open' "$cluster" ldi.exr other.exr -o x.exr
 
-# Several deep files are merged by depth: the same as what oiiotool makes of them, in either order.
+# Several deep files are merged by depth, with the same result as by oiiotool, in either order.
 oiiotool --pattern constant:color=0.25,0.5,0.125,0.5,4 16x8 5 --chnames R,G,B,A,Z -d float --deepen -o near.exr
 oiiotool --pattern constant:color=0.5,0.25,1,1,9 16x8 5 --chnames R,G,B,A,Z -d float --deepen -o far.exr
 exits 0 "$cluster" near.exr far.exr -o merged.exr --layers 9

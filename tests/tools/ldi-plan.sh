@@ -1,12 +1,12 @@
-# ldi-plan: what it asks for, dof-trace --plan, and the way from there to the picture. bash ldi-plan.sh BIN_DIR
+# ldi-plan: its requests, dof-trace --plan, and the chain from there to the picture. bash ldi-plan.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 plan=$bin/ldi-plan
 answers_help ldi-plan views/center.exr -o plan.json
 "$bin/dof-trace" fence --size 240x135 --spp 16 -o full
-reference=$source_dir/lab/tests/floors/references/fence.exr # of this size, 4096 rays a pixel
+reference=$source_dir/lab/tests/floors/references/fence.exr # of this size, 4096 rays per pixel
 
-# json FILE EXPRESSION: of the plan, in Python.
+# json FILE EXPRESSION: evaluates it on the plan, in Python.
 json() { python3 -c "import json,sys; p = json.load(open(sys.argv[1])); print($2)" "$1"; }
 command -v python3 >/dev/null || skip "needs python3 to read JSON"
 
@@ -26,8 +26,9 @@ exits 0 "$plan" fine/center.exr -o fine.json
 exits 0 "$plan" full/center.exr -o -
 grep -q '"views"' stdout || fail "no plan on standard output"
 
-# What is asked for is rendered, and as good for the picture as all of it: within half a decibel, and far above the centre
-# view alone, whose hidden parts are guessed (lab/results/hidden.md: five views are 5 dB or more above the best guess).
+# The requested pixels are rendered, and are as good for the picture as whole views: within half a decibel, and far
+# above the centre view alone, whose hidden parts are guessed (lab/results/hidden.md: five views are 5 dB or more above
+# the best guess).
 "$bin/dof-trace" fence --size 240x135 --spp 16 --plan plan.json -o planned
 [ ! -e planned/center.exr ] || fail "the centre view was not asked for"
 [ "$(ls planned/*.exr | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "views: $(ls planned)"
@@ -39,8 +40,8 @@ alone=$(psnr full/center.exr) planned=$(psnr full/center.exr planned/view_*.exr)
 echo "centre alone $alone dB, planned $planned dB, full views $full dB"
 python3 -c "import sys; a, p, f = map(float, sys.argv[1:]); sys.exit(not (p > a + 5 and p > f - 0.5))" "$alone" "$planned" "$full" ||
     fail "planned views: $alone $planned $full"
-# So small that the bars of the fence are as thin as a pixel: what hides behind them is asked for, too. Its checkers are as
-# fine, but no noise. 40 dB: what is left out adds less error than full views have (36.8 dB).
+# So small that the bars of the fence are as thin as a pixel: the surfaces that they hide are requested too. The
+# checkers are as fine, but are not noise. 40 dB: the omission adds less error than full views have (36.8 dB).
 "$bin/dof-trace" fence --size 160x90 --spp 16 -o small
 exits 0 "$plan" small/center.exr -o small.json --masks small-masks
 [ "$(json small.json 'p["share"] < 1.2')" = True ] || fail "share of the small picture: $(json small.json 'p["share"]')"
@@ -51,7 +52,7 @@ gathered asked.exr small/center.exr asked/view_*.exr
 same=$("$bin/dof-compare" asked.exr small.exr --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["psnr_tonemapped"])')
 python3 -c "import sys; sys.exit(not $same > 40)" || fail "thin bars: planned views are $same dB from full ones"
 
-# By rectangles alone more is rendered, never less.
+# Rectangles without masks cause more rendering, never less.
 exits 0 "$plan" full/center.exr -o rectangles.json --noise 0
 "$bin/dof-trace" fence --size 240x135 --spp 16 --plan rectangles.json -o rectangles
 [ "$(json rectangles.json '"mask" in p["views"][0]')" = False ] || fail "masks that were not asked for"
@@ -59,7 +60,7 @@ fails_saying 1 'another size' "$bin/dof-trace" fence --size 80x45 --plan plan.js
 fails_saying 1 'view_0.exr: not JSON' "$bin/dof-trace" fence --plan planned/view_0.exr -o x
 fails_saying 1 'missing.json' "$bin/dof-trace" fence --plan missing.json -o x
 
-# --cameras: what dof-trace makes of the plan stands where the cameras say, in both kinds of file.
+# --cameras: dof-trace's views of the plan are at the positions of the cameras, in both kinds of file.
 exits 0 "$plan" full/center.exr -o cameras-plan.json --noise 0 --cameras cameras.json
 exits 0 "$plan" full/center.exr -o cameras-plan.json --noise 0 --cameras cameras.csv
 [ "$(json cameras.json '[c["name"] for c in p["cameras"]]')" = "$(json plan.json '["center"] + [v["name"] for v in p["views"]]')" ] ||

@@ -1,5 +1,5 @@
 #!/bin/bash
-# ldi-warp from the shell: what it writes, what each option changes, and how it fails.
+# ldi-warp from the shell: its output, the effect of each option, and its failures.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 warp=$bin/ldi-warp
@@ -7,7 +7,7 @@ center=views/center.exr
 
 answers_help ldi-warp $center -o out.exr
 
-# What it writes, everybody reads.
+# All tools can read its output.
 exits 0 "$warp" $center "${rim[@]}" -o average.exr
 [ ! -s stdout ] && [ ! -s stderr ] || fail "talks: $(cat stdout stderr)"
 exits 0 oiiotool --info -v average.exr
@@ -22,7 +22,7 @@ says average.exr '^worldToCamera'
 says average.exr '^sparselens:lensPoints .*"0,0 0\.0[56][0-9]*,0 [^ ]* -0\.0[56][^ ]* [^ ]*"$'
 says average.exr '^displayWindow .*\(0 0\) - \(95 53\)'
 
-# --merge keep: flattened by any tool it is the centre view; --merge average is another picture.
+# --merge keep: flattened by any tool it equals the centre view; --merge average gives another picture.
 exits 0 "$warp" $center "${rim[@]}" -o keep.exr --merge keep
 oiiotool keep.exr --flatten -o flat.exr
 same_pixels flat.exr $center "a kept LDI flattens to the centre view"
@@ -59,7 +59,7 @@ exits 0 "$warp" bare.exr -o one.exr
 oiiotool one.exr --flatten -o flat.exr
 same_pixels flat.exr $center "the LDI of one view flattens to it"
 
-# --view says where a camera stood, before or after the others; any number of views, in any order.
+# --view gives a camera's position, before or after the others; any number of views, in any order.
 placed=(--view -0.06,0 views/view_2.exr)
 exits 0 "$warp" $center views/view_0.exr -o by_metadata.exr
 exits 0 "$warp" $center "${placed[@]}" -o after.exr
@@ -67,7 +67,7 @@ exits 0 "$warp" "${placed[@]}" $center -o before.exr
 exits 0 "$warp" -o between.exr "${placed[@]}" -- $center
 same after.exr before.exr "--view after and before the centre view"
 same after.exr between.exr "--view before --"
-exits 0 "$warp" $center --view 0.0599999987,0 views/view_0.exr -o exactly.exr # as float keeps it
+exits 0 "$warp" $center --view 0.0599999987,0 views/view_0.exr -o exactly.exr # as stored in float
 same_samples exactly.exr by_metadata.exr "a camera placed by hand and one by its metadata"
 exits 0 "$warp" $center --view 0.06,0 views/view_2.exr -o elsewhere.exr
 differ after.exr elsewhere.exr "--view X"
@@ -79,7 +79,7 @@ picture edit "${rim[0]}" lost.exr erase=worldToCamera
 fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
 
 # A view whose frustum is shifted, here 6 pixels to the right and 3 down, so that it has the same rays, gives the same
-# LDI, wherever its place comes from.
+# LDI, however its position is given.
 exits 0 "$bin/dof-trace" fence --size 96x48 --overscan 8 --spp 1 --views 1 -o straight
 oiiotool straight/view_0.exr --origin -2-5 --fullsize 96x48+0+0 --attrib:type=matrix worldToNDC \
     1,0,0,0,0,-2,0,0,0.5625,0.5625,1,1,-0.06,0,-1,0 -o off_axis.exr
@@ -93,7 +93,7 @@ same_samples shifted.exr straight.exr "an off-axis view placed by hand"
 exits 0 "$warp" straight/center.exr believed_straight.exr -o shifted.exr
 grep -q 'warning: believed_straight.exr: disagrees' stderr || fail "a frustum that is not known is not noticed: $(cat stderr)"
 
-# Threads do not matter; what is said is said on stderr.
+# The number of threads does not matter; messages go to stderr.
 exits 0 "$warp" $center "${rim[@]}" -o one_thread.exr --threads 1
 exits 0 "$warp" $center "${rim[@]}" -o two_threads.exr --threads 2
 same one_thread.exr average.exr "1 thread"
@@ -102,7 +102,7 @@ exits 0 "$warp" $center "${rim[@]}" -o verbose.exr -v
 grep -Eq '^ldi-warp: 5 views, [0-9]+ samples' stderr || fail "-v says nothing: $(cat stderr)"
 same verbose.exr average.exr "-v"
 
-# Every lens option changes the LDI or what it says.
+# Every lens option changes the LDI or the messages.
 lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5 --scene-unit 1)
 picture edit $center nolens.exr 'erase=focus|FNumber|worldToNDC|pinhole.*|sparselens:.*'
 exits 0 "$warp" nolens.exr "${placed[@]}" "${lens[@]}" -o lens.exr
@@ -130,7 +130,7 @@ fails_saying 2 '--focal-length' "$warp" nolens.exr "${placed[@]}" --sensor-width
 fails_saying 2 '--sensor-width' "$warp" nolens.exr "${placed[@]}" --focal-length 36 -o x.exr
 refuses_wrong_lenses "$warp" $center -o x.exr
 
-# What depth channels hold, and which they are.
+# The meaning of depth channels, and their choice.
 for z in 4 0.25; do
     picture make z$z.exr 3x3 R=0.5 G=0.5 B=0.5 A=1 Z=$z
 done
@@ -153,7 +153,7 @@ same piped.exr average.exr "through a pipe"
 "$warp" $center --view -0.06,0 - -o - <views/view_2.exr | cat >piped.exr
 same_samples piped.exr after.exr "a rim view through a pipe"
 
-# Names are names.
+# Any name works.
 cp $center "it's a \"centre\" view.exr"
 cp $center ./-dash.exr
 exits 0 "$warp" "it's a \"centre\" view.exr" -o "out put.exr"
@@ -165,13 +165,13 @@ cp $center same.exr
 fails_saying 2 "would overwrite the input same.exr" "$warp" same.exr "${rim[@]}" -o same.exr
 same same.exr $center "a refused output"
 
-# Failures: one line, exit 1, the old output as it was.
+# Failures: one line, exit 1, the old output unchanged.
 fails_saying 1 'missing.exr: cannot open: No such file' "$warp" missing.exr -o x.exr
 fails_saying 1 'center.exr: cannot create the folder' "$warp" $center -o views/center.exr/x.exr
 fails_saying 1 'views: is a folder' "$warp" views -o x.exr
 head -c 3000 $center >cut.exr
 fails_saying 1 'cut.exr' "$warp" cut.exr -o x.exr
-# Views are read side by side: of two that fail, the first is named, though the other fails sooner.
+# Views are read at the same time: if two fail, the first is named, even if the other fails sooner.
 head -c -1000 "${rim[0]}" >late.exr
 for threads in 1 2 4; do
     fails_saying 1 'late.exr' "$warp" $center --view 0.06,0 late.exr --view 0,0.06 missing.exr -o x.exr --threads $threads
@@ -187,8 +187,8 @@ survives_failure "$warp" $center --view 0.06,0 narrow.exr
 fails_saying 2 '--output' "$warp" $center
 fails_saying 2 'views|CENTER' "$warp" -o x.exr
 
-# A view that stands elsewhere than it is said to is noticed, and where it would agree: the other way, nearer, farther,
-# at the centre, and not at the centre.
+# A view from another position than stated is noticed, with the position that would agree: the other way, nearer,
+# farther, at the centre, and not at the centre.
 said() { # PATTERN: in one line
     [ "$(wc -l <stderr)" -eq 1 ] || fail "not one line: $(cat stderr)"
     grep -Eq "$1" stderr || fail "not said: $1 ($(cat stderr))"
@@ -211,7 +211,7 @@ said 'warning: views/view_0.exr: stands at the edge of the lens, with all other 
 exits 0 "$warp" "${rim[@]}" views/center.exr -o x.exr
 said 'warning: views/view_0.exr: stands at the edge .*; give the view from the middle first, views/center.exr$'
 
-# Views in their places are not complained of, in whichever scene, nor pixels that a plan leaves of them.
+# Correct views give no warnings, in any scene, nor do partial views from a plan.
 silent() { [ ! -s stderr ] || fail "views in their places are complained of: $* ($(cat stderr))"; }
 exits 0 "$warp" views/center.exr "${rim[@]}" -o x.exr
 silent fence

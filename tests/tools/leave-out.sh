@@ -1,6 +1,6 @@
 #!/bin/bash
-# What each stage leaves out because the scene does not need it never shows: each switch on against off, over all test
-# scenes. The bounds are those of lab/results/techniques.md. bash leave-out.sh BIN_DIR
+# Work that a stage leaves out because the scene does not need it is never visible: each switch on compared with off,
+# over all test scenes. The bounds are those of lab/results/techniques.md. bash leave-out.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 
 decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
@@ -14,7 +14,7 @@ agree() {
 
 for scene in element fence grass lamps macro mirror mist planes slant; do
     size=256x144
-    [ $scene != lamps ] || size=640x360 # its lamps lie on whole pixels there
+    [ $scene != lamps ] || size=640x360 # its lamps are on whole pixels there
     exits 0 "$bin/dof-trace" $scene --size $size --spp 4 -o $scene
     cd $scene
     exits 0 "$bin/ldi-warp" center.exr view_*.exr -o ldi.exr
@@ -26,7 +26,7 @@ for scene in element fence grass lamps macro mirror mist planes slant; do
     # Lens points: as many as the blur of a tile needs.
     exits 0 "$bin/dof-gather" ldi.exr -d float --lens-samples 2048 -o many.exr
     agree 38 whole.exr many.exr "lens points by tile against 2048"
-    # Views: only what the plan asks for.
+    # Views: only the plan's requests.
     exits 0 "$bin/ldi-plan" center.exr --noise 0 -o plan.json --masks masks
     exits 0 "$bin/dof-trace" $scene --size $size --spp 4 --plan plan.json -o planned
     planned=()
@@ -34,7 +34,7 @@ for scene in element fence grass lamps macro mirror mist planes slant; do
     exits 0 "$bin/ldi-warp" center.exr "${planned[@]}" -o planned.ldi.exr
     exits 0 "$bin/dof-gather" planned.ldi.exr -d float -o planned.exr
     agree 38 planned.exr whole.exr "views as planned (${#planned[@]})"
-    # Channels that are not asked for are not there, and the others as they were.
+    # Channels that are not requested are missing, and the others unchanged.
     exits 0 "$bin/dof-gather" ldi.exr -d float --channels R,G -o fewer.exr
     exits 0 picture edit whole.exr whole_fewer.exr channels=R,G
     exits 0 picture same fewer.exr whole_fewer.exr

@@ -1,9 +1,9 @@
 #!/bin/bash
-# How much memory dof-gather takes of deep files of many samples, by the growth between two sizes, so that what a process takes
-# anyway does not count: at most 24 bytes a sample and 100 bytes a pixel, and without a lens half as much a sample, because
-# samples are flattened as they are read. A picture that is no higher than what its bands need is gathered at once: from 20 bytes a
-# sample and 48 made of them, in vectors that double as they grow. On one thread: which pieces of several are in memory at once
-# depends on how they meet. bash memory.sh BIN_DIR
+# The memory of dof-gather for deep files of many samples, measured by the growth between two sizes, so that fixed costs
+# of a process do not count: at most 24 bytes per sample and 100 bytes per pixel, and without a lens half as much per
+# sample, because samples are flattened as they are read. A picture no higher than its bands need is gathered at once:
+# from 20 bytes per sample and 48 made from each, in vectors that double as they grow. On one thread, because with
+# several the pieces in memory depend on timing. bash memory.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 command -v python3 >/dev/null || skip "needs python3"
 [ -x "$bin/sparselens-deep-scene" ] || skip "needs the benchmarks (SPARSELENS_BENCHMARKS)"
@@ -16,8 +16,8 @@ print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)
 END
 
 quality=draft
-# measure SCENE WIDTH HEIGHT CoC: sets `peak`, of dof-gather at that quality, and `samples`. The CoCs are CoC times those of the
-# scene at all sizes.
+# measure SCENE WIDTH HEIGHT CoC: sets `peak`, of dof-gather at that quality, and `samples`. The CoCs are CoC times
+# those of the scene at all sizes.
 measure() {
     exits 0 "$bin/sparselens-deep-scene" "$1" "$2" "$3" in.exr
     rm -f stats.json
@@ -26,8 +26,8 @@ measure() {
     samples=$(sed -E 's/.*"samples":([0-9]+).*/\1/' stats.json)
 }
 
-# check SCENE WIDTH HEIGHT CoC BYTES [BEYOND]: two times as wide and high takes at most so many bytes a sample more. So many pixels
-# of a row go on beyond the frame, at either size, and count as others do.
+# check SCENE WIDTH HEIGHT CoC BYTES [BEYOND]: twice the width and height takes at most this many bytes more per sample.
+# BEYOND pixels of a row continue beyond the frame, at either size, and count like the others.
 check() {
     measure $1 $2 $3 $4
     local small=$peak fewer=$samples
@@ -39,27 +39,28 @@ check() {
 
 check dense 192 108 1 24
 check hair 384 216 1 24
-# These are gathered in bands, whose least height does not grow with the picture: of high pictures, small ones show the growth.
+# These are gathered in bands, whose least height does not grow with the picture: with tall pictures, small ones show
+# the growth.
 check apart 32 1600 1 24
-check tinted 16 1600 1 24 64 # a cell of 32 on each side, which in so narrow a picture is not little
+check tinted 16 1600 1 24 64 # a cell of 32 on each side, much for so narrow a picture
 check volume 16 800 1 24
 check dense 192 108 0 12
 check volume 96 54 0 12
-# Pictures of a usual shape, gathered at once.
+# Pictures of usual shape, gathered at once.
 check apart 96 54 1 136
 check tinted 96 54 1 136
 check volume 96 54 1 136
 quality=normal
 check dense 192 108 1 24
 
-# warped WIDTH HEIGHT: sets `peak`, of ldi-warp of five views of that size, a board before a wall; colours are halves.
+# warped WIDTH HEIGHT: sets `peak`, of ldi-warp with five views of that size, a board before a wall; colours are halves.
 warped() {
     picture make view.exr $1x$2 R=0..1 G=0.5 B=0.25 A=1 Z=8 fill=$(($1 / 2))x$(($2 / 2)) G=1 Z=2 half=R,G,B,A
     peak=$(python3 peak.py "$bin/ldi-warp" view.exr --view 0.01,0 view.exr --view -0.01,0 view.exr --view 0,0.01 view.exr \
         --view 0,-0.01 view.exr -o out.exr --lens-radius 0.01 --focal-length 50 --sensor-width 36 --threads 1 2>/dev/null)
 }
 
-# As they are read, five views take 24 bytes a pixel each; as they are warped, 11, and the LDI takes 50.
+# While they are read, five views take 24 bytes per pixel each; while they are warped, 11, and the LDI takes 50.
 warped 640 360
 small=$peak
 warped 1280 720
@@ -67,7 +68,7 @@ grown=$((peak - small)) allowed=$((170 * 3 * 640 * 360))
 printf 'five views %15d bytes more (at most %d)\n' $grown $allowed
 [ $grown -le $allowed ] || fail "ldi-warp: $small bytes at 640x360, $peak at 1280x720"
 
-# In cells, in bands of rows: the same as at once, where the depth of all is asked for, too.
+# In cells, in bands of rows: the same as at once, even if the depth of everything is requested.
 exits 0 "$bin/sparselens-deep-scene" dense 24 1700 in.exr
 by=(-d float --lens-radius 6 --focus-distance 1.3 --threads 1)
 banded=$(python3 peak.py "$bin/dof-gather" in.exr -o banded.exr "${by[@]}")

@@ -1,6 +1,6 @@
 #!/bin/bash
-# What is easily done wrong with views, on those of the ray tracer: each is a warning that says what to do, and views that are
-# right are met with silence.
+# Common mistakes with views, tested on views of the ray tracer: each gives a warning that says what to do, and correct
+# views give none.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 warp=$bin/ldi-warp gather=$bin/dof-gather
@@ -18,7 +18,7 @@ silent "a good view"
 exits 0 "$bin/ldi-plan" $center -o plan.json
 silent "ldi-plan of a good view"
 
-# met PATTERN FILE [OPTIONS...]: by all tools that begin with a picture.
+# met PATTERN FILE [OPTIONS...]: all tools that start from a picture give the warning.
 met() {
     exits 0 "$warp" "${@:2}" -o x.exr
     says_once "^ldi-warp: warning: $2: $1" "ldi-warp"
@@ -27,22 +27,22 @@ met() {
     exits 0 "$bin/ldi-plan" "${@:2}" -o plan.json
     says_once "^ldi-plan: warning: $2: $1" "ldi-plan"
 }
-# With the colours, or the depth, of another file.
+# Replaces the colours, or the depth, by those of another file.
 colours_of() { oiiotool $center --ch Z "$1" --ch R,G,B,A --chappend --ch R,G,B,A,Z -d half -d Z=float -o "$2"; }
 depth_of() { oiiotool $center --ch R,G,B,A "$1" --chappend -d half -d Z=float -o "$2"; }
 
-# Depth of field rendered into the view: of the tracer's lens.
+# Depth of field rendered into the view, with the tracer's lens.
 colours_of views/reference.exr defocused.exr
 met 'its edges out of focus are blurred.*switch depth of field off' defocused.exr
 
-# Colours encoded for a display; --colorspace makes them right.
+# Colours encoded for a display; --colorspace corrects them.
 oiiotool $center --ch R,G,B,A --colorconvert linear sRGB -o coded.exr
 colours_of coded.exr srgb.exr
 met 'its colours mix at edges as sRGB codes do.*--colorspace sRGB' srgb.exr
 exits 0 "$warp" srgb.exr -o x.exr --colorspace sRGB
 silent "--colorspace sRGB"
 
-# Depth that is 1 / z, or a depth buffer's; said so, it is right.
+# Depth as 1 / z, or from a depth buffer; the right option corrects it.
 oiiotool $center --ch Z -o z.exr
 oiiotool --pattern constant:color=1 640x360 1 z.exr --div --chnames Z -d float -o inverse.z.exr
 depth_of inverse.z.exr inverse.exr
@@ -57,7 +57,7 @@ silent "--depth hyperbolic"
 exits 0 "$gather" hyperbolic.exr -o x.exr --lens-radius 0 --depth-out z.hyperbolic.exr --depth hyperbolic --near 2 --far 20
 picture same z.exr z.hyperbolic.exr Z 1e-3 || fail "--depth hyperbolic: another depth"
 
-# Depth from 0 to 1 that is white near.
+# Depth from 0 to 1 with white near.
 oiiotool z.exr --mulc -0.01001001 --addc 1.001001 --clamp:min=0:max=1 --chnames Z -d float -o white.z.exr # planes at 0.1 and 100
 depth_of white.z.exr white.exr
 met 'its depths lie from 0 to 1 and seem to be white near.*--depth normalized with --near, .* and --far' white.exr
@@ -66,12 +66,12 @@ silent "--depth normalized of white near"
 exits 0 "$gather" white.exr -o x.exr --lens-radius 0 --depth-out z.white.exr --depth normalized --near 100 --far 0.1
 picture same z.exr z.white.exr Z 1e-3 || fail "--depth normalized of white near: another depth"
 
-# Depth averaged over edges, as its colours are.
+# Depth averaged over edges, like colours.
 exits 0 "$bin/dof-trace" fence --size 1280x720 --spp 1 --views 0 -o large
 oiiotool large/center.exr --ch R,G,B,A,Z --resize:filter=box 640x360 --fullsize 640x360+0+0 -d half -d Z=float -o averaged.exr
 met 'its depth is averaged over edges.*without a filter' averaged.exr
 
-# Colours that are not premultiplied.
+# Unpremultiplied colours.
 exits 0 "$bin/dof-trace" element --size 320x180 --spp 8 --views 0 -o element
 exits 0 "$warp" element/center.exr -o x.exr
 silent "an element"
@@ -80,7 +80,7 @@ met 'its edges stay as bright as the surfaces where A falls.*--unpremultiplied' 
 exits 0 "$warp" straight.exr -o x.exr --unpremultiplied
 silent "--unpremultiplied"
 
-# Centimetres taken for metres: the lens is too small by 100.
+# Centimetres taken for metres: the lens is 100 times too small.
 picture edit $center centimetres.exr 'erase=sparselens:metresPerUnit'
 lens=(--focal-length 36 --sensor-width 36 --fstop 30 --focus-distance 5)
 met 'the largest circle of confusion is 0\.[0-9]* pixels.*--scene-unit 0.01' centimetres.exr "${lens[@]}"
@@ -89,7 +89,8 @@ silent "--scene-unit"
 exits 0 "$gather" $center --lens-radius 0 -o x.exr
 silent "a pinhole"
 
-# Places of views in millimetres, where a scene unit is a centimetre, a decimetre and a metre; nothing else is said of them.
+# Positions of views in millimetres, for a scene unit of a centimetre, a decimetre and a metre; no other warning is
+# given.
 for factor in 10 100 1000; do
     far=$(awk "BEGIN { print 0.06 * $factor }")
     exits 0 "$warp" $center --view $far,0 views/view_0.exr --view 0,$far views/view_1.exr -o x.exr

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Files as Nuke and other programs write them: colours and depths by other names, unpremultiplied, depth in a file of its own,
-# white near; and names of outputs that are no format.
+# Files by Nuke and other programs: colours and depths with other names, unpremultiplied colours, depth in a separate
+# file, white near; and output names without a known format.
 . "$(dirname "$0")/check.sh"
 gather=$bin/dof-gather warp=$bin/ldi-warp cluster=$bin/ldi-cluster
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 6)
 same() { picture same "$@" >found 2>&1 || fail "$1 and $2 differ ($(cat found))"; }
-has_channels() { # FILE NAMES: these and no others
+has_channels() { # these and no others
     picture edit "$1" listed.exr channels="$2" || fail "$1 lacks one of $2"
     picture same "$1" listed.exr >found || fail "$1 has other channels than $2 ($(cat found))"
 }
@@ -19,7 +19,7 @@ exits 0 "$bin/dof-gather" plain.exr -o expected.exr "${lens[@]}"
 exits 0 "$bin/ldi-cluster" plain.exr -o expected.deep.exr --tolerance 0
 exits 0 "$bin/ldi-warp" plain.exr -o expected.ldi.exr
 
-# Colours by other names are R, G, B and A, coverage is none of the light, and files keep the names.
+# Colours with other names are treated as R, G, B and A, coverage is not treated as light, and files keep the names.
 for names in red,green,blue,alpha r,g,b,a RED,Green,blue,Alpha rgba.red,rgba.green,rgba.blue,rgba.alpha Ci.r,Ci.g,Ci.b,Ci.a \
     beauty.red,beauty.green,beauty.blue,beauty.alpha; do
     IFS=, read -r r g b a <<<"$names"
@@ -47,7 +47,7 @@ for names in red,green,blue,alpha r,g,b,a RED,Green,blue,Alpha rgba.red,rgba.gre
     grep -q '"psnr": null' stdout || fail "dof-compare of $names: $(cat stdout)"
 done
 
-# Depth by the usual names in any case; a guess is said.
+# Depth with the usual names in any case; a guess is reported.
 without_depth=R,G,B,A,$layer
 for name in Depth.Z Z.R depth.V zDepth.R depth.z z DEPTH.Z zdepth; do
     picture edit plain.exr named.exr channels="$without_depth,$name=Z"
@@ -66,7 +66,7 @@ fails_saying 1 'two.exr: has no depth channel' "$bin/dof-gather" two.exr -o x.ex
 picture edit plain.exr normal.exr channels="$without_depth,N.X=Z,N.Y=Z,N.Z=Z"
 fails_saying 1 'normal.exr: has no depth channel' "$bin/dof-gather" normal.exr -o x.exr "${lens[@]}"
 
-# Depth in a file of its own, of any name; for several pictures one for each.
+# Depth in a separate file, with any name; for several pictures one file each.
 picture edit plain.exr beauty.exr channels=$without_depth
 picture edit plain.exr depth.0001.exr channels=depth.Z=Z
 picture edit plain.exr luma.exr channels=Y=Z
@@ -97,7 +97,8 @@ fails_saying 1 'small.exr: its display window .* is not that of beauty.exr' "$bi
 fails_saying 1 'beauty.exr: has no depth channel .*--depth-file' "$bin/dof-gather" beauty.exr -o x.exr "${lens[@]}"
 fails_saying 1 'luma.exr: has depth but no colours' "$bin/dof-gather" luma.exr --depth-channel Y -o x.exr "${lens[@]}"
 
-# Unpremultiplied colours are told by flat pictures and views, and taken. Light without coverage is not taken for them.
+# Flat pictures and views show that their colours are unpremultiplied, and are converted. Light without coverage is not
+# mistaken for that.
 picture make soft.exr 48x48 R=0 G=0 B=0 A=0 Z=inf fill=32x32+8+8 R=0.1 G=0.2 B=0.05 A=0.25 Z=2 fill=30x30+9+9 R*=2 G*=2 B*=2 A=0.5 \
     fill=28x28+10+10 R*=2 G*=2 B*=2 A=1
 picture edit soft.exr straight.exr fill=32x32+8+8 R=0.4 G=0.8 B=0.2
@@ -123,7 +124,7 @@ exits 0 "$bin/ldi-warp" straight.exr --unpremultiplied -o out.ldi.exr
 exits 0 "$bin/ldi-warp" soft.exr -o soft.ldi.exr
 same out.ldi.exr soft.ldi.exr 1e-3
 
-# Depth that is 1 near and 0 far: 0 at --near, which is the larger.
+# Depth that is 1 near and 0 far: 0 at --near, which is then the larger value.
 picture make floor.exr 48x96 R=0.5 G=0.5 B=0.5 A=1 Z=2
 picture edit floor.exr white.exr Z=0.875
 exits 0 "$bin/dof-gather" white.exr -o x.exr --lens-radius 0 --depth-out z.exr --depth normalized --near 17 --far 1
@@ -139,12 +140,12 @@ picture edit floor.exr expected.z.exr channels=Z Z=2
 same z.exr expected.z.exr Z 1e-4
 fails_saying 2 '--depth normalized: --near and --far must be above 0 and not the same' "$bin/dof-gather" white.exr -o x.exr "${lens[@]}" --depth normalized --near 2 --far 2
 
-# --tolerance 0 needs no lens, as the help says by its example.
+# --tolerance 0 needs no lens, as the example in the help shows.
 picture edit plain.exr behind.exr Z*=2
 exits 0 "$bin/ldi-cluster" plain.exr behind.exr -o x.exr --tolerance 0
 fails_saying 2 'is unknown: give --' "$bin/ldi-cluster" plain.exr -o x.exr --tolerance 0.1
 
-# An output of no format is refused before anything is read, with a list of those that there are.
+# An output without a known format is refused before anything is read, with a list of the formats.
 for name in shot.psd shot.mov shot.pgn shot; do
     fails_saying 2 "$name ends in no format that is written: .exr, .png" "$bin/dof-gather" missing.exr -o $name "${lens[@]}"
     fails_saying 2 "$name does not end in .exr" "$bin/ldi-warp" missing.exr -o $name
@@ -164,17 +165,17 @@ exits 0 "$bin/dof-gather" tiled.exr --depth-file plain.exr -o out.exr --lens-rad
 [ "$(od -An -tu1 -j5 -N1 out.exr | tr -d ' ')" = 0 ] || fail "tiles unasked"
 fails_saying 2 '--tiles applies to EXR' "$bin/dof-gather" plain.exr -o x.png --tiles 16 "${lens[@]}"
 
-# What is missing is said.
+# Missing values are named.
 fails_saying 2 "--focus-distance 1:3,5:6 is keyed by frame, and keys need --frames" "$bin/dof-gather" plain.exr -o x.exr --focal-length 50 --sensor-width 36 --fstop 2 --focus-distance 1:3,5:6
 fails_saying 2 '--focus-pixel: 500,500 lies outside of plain.exr, whose pixels go from 0,0 to 47,31' "$bin/dof-gather" plain.exr -o x.exr --focal-length 50 --sensor-width 36 --fstop 2 --focus-pixel 500,500
 exits 0 "$bin/dof-gather" plain.exr -o x.exr --focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-pixel 20,16 --stats stats.json
 grep -q '"focus_distance":2.0' stats.json || fail "--stats: $(cat stats.json)"
 
-# Only the size of a view of the wrong size is wrong.
+# For a view of the wrong size, only the size is reported.
 picture make other.exr 40x30 R=0.1 G=0.1 B=0.1 A=1 Z=2 fill=1x1+5+5 Z=inf
 fails_saying 1 'other.exr.*display window' "$bin/ldi-warp" plain.exr --view 0.1,0 other.exr -o x.exr "${lens[@]}"
 
-# Every tool that reads pictures takes unpremultiplied ones.
+# Every tool that reads pictures accepts unpremultiplied ones.
 exits 0 "$bin/ldi-plan" straight.exr --unpremultiplied "${lens[@]}" --noise 0 -o plan.json
 [ ! -s stderr ] || fail "ldi-plan --unpremultiplied: $(cat stderr)"
 exits 0 "$bin/dof-compare" straight.exr straight.exr --unpremultiplied --json

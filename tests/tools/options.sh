@@ -1,14 +1,14 @@
 #!/bin/bash
 # Every option of every tool is in --help, in the manual page, in the completion, and in a script that shows its effect;
-# those that tools share are shown here, for each tool.
+# options that tools share are tested here, for each tool.
 declare -A ending=([ldi-plan]=json)
 . "$(dirname "$0")/check.sh"
 scripts=("$source_dir"/tests/tools/*.sh "$source_dir"/lab/tests/tools/*.sh)
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
-declare -A shown # "TOOL OPTION": its effect has been seen here
+declare -A shown # "TOOL OPTION": its effect was tested here
 
-# judged PATTERN FILE...: a line that matches, of a run that is to succeed, is followed within eight lines by one that judges
-# what came of it, or does both itself. A run that is to fail shows no effect.
+# judged PATTERN FILE...: a line that matches, in a run that should succeed, is followed within eight lines by one that
+# checks the result, or does both itself. A run that should fail shows no effect.
 judged() {
     PATTERN=$1 awk '
         FNR == 1 { left = 0 }
@@ -17,8 +17,8 @@ judged() {
         left-- > 0 && /(^|[^a-z])(fail|same|same_[a-z]*|differ|differ_[a-z]*|within|holds|is|positive|says|agree|fewer|changes|changes_[a-z]*|changed|chosen|regions|expect_window|history|said|silent|check|show|newer) / { found = 1 }
         END { exit !found }' "${@:2}"
 }
-# tested OPTION TOOL: its effect is seen here, or the tool's own script runs it with that option and judges what it gives, or another
-# one does by the tool's name.
+# tested OPTION TOOL: its effect is tested here, or the tool's own script runs it with that option and checks the
+# result, or another script does with the tool's name.
 tested() {
     local option="(^|[^a-z-])$1([^a-z-]|\$)" own=$source_dir/tests/tools/$2.sh
     [ -e "$own" ] || own=$source_dir/lab/tests/tools/$2.sh
@@ -26,7 +26,7 @@ tested() {
 }
 if tested --no-such-option dof-gather; then fail "an option of runs that fail counts as tested"; fi
 
-# --- Options that tools share, of each tool that has them ---
+# --- Options that tools share, for each tool that has them ---
 
 trace() { exits 0 "$bin/dof-trace" fence --size 48x27 --spp 1 -o "$@"; }
 trace views --views 1
@@ -34,7 +34,7 @@ exits 0 "$bin/ldi-warp" views/center.exr views/view_0.exr -o ldi.exr
 trace rays --views 0 --halves 2
 exits 0 "$bin/ldi-plan" views/center.exr --noise 0 --lens-radius 0.5 --masks masks -o plan.json
 for frame in 1 2 4; do cp ldi.exr in.000$frame.exr && cp views/center.exr center.000$frame.exr; done
-# What each does with one input, but for the output; %FRAME% is empty, or stands for the frame.
+# What each tool does with one input, without the output; %FRAME% is empty, or stands for the frame.
 declare -A task=(
     [ldi-plan]="center%FRAME%.exr --noise 0 --lens-radius 0.5" [ldi-warp]="center%FRAME%.exr" [ldi-cluster]="in%FRAME%.exr --tolerance 1"
     [dof-gather]="in%FRAME%.exr" [dof-finish]="center%FRAME%.exr rays/rays_1.exr rays/rays_2.exr" [dof-trace]="fence --plan plan.json --size 48x27" [dof-accumulate]="center.exr"
@@ -42,7 +42,7 @@ declare -A task=(
 )
 cp ldi.exr in.exr
 cp views/center.exr center.exr
-# run TOOL OUTPUT OPTIONS...: the task; dof-compare's output is what it prints.
+# run TOOL OUTPUT OPTIONS...: runs the task; for dof-compare the output is what it prints.
 run() {
     local tool=$1 output=(-o "$2")
     [ "$tool" != dof-compare ] || output=()
@@ -65,7 +65,7 @@ exits 0 "$bin/dof-stress" --case z_nan --threads 3 -v
 grep -qx "dof-stress: threads: 3" stderr || fail "dof-stress --threads 3 -v: $(cat stderr)"
 show dof-stress --threads -v
 
-# --far: what lies there or beyond is the sky.
+# --far: depths there or beyond are sky.
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-compare; do
     run $tool near.$tool.${ending[$tool]:-exr} --far 1e9
     cmp -s near.$tool.${ending[$tool]:-exr} out.$tool.${ending[$tool]:-exr} || fail "$tool --far changes what has no sky"
@@ -74,7 +74,7 @@ for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-compare; do
     show $tool --far
 done
 
-# Frames, of which the third is missing.
+# Frames, with the third missing.
 count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-finish; do
     frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1-4x3
@@ -91,7 +91,7 @@ done
 
 # --- All options of all tools ---
 
-bash_words() { # TOOL WORDS...: what the completion offers for the last word
+bash_words() { # the completions for the last word
     bash -c '. "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; echo "${COMPREPLY[*]}"' - "$folder/$1" "$@"
 }
 
@@ -132,13 +132,13 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
         diff names - >differ || fail "$tool: help and fish: $(cat differ)"
     sed -nE 's/\\fB((\\-)+[^\\]+(\\-[^\\]+)*)\\fR/\n&\n/gp' "$tool.1" | sed -nE 's/^\\fB(\\-.*)\\fR$/\1/p' | sed 's/\\-/-/g' | sort -u |
         diff names - >differ || fail "$tool: help and manual page: $(cat differ)"
-    # An option of two names is tested by one of them.
+    # An option with two names is tested by one of them.
     while IFS=, read -r one two; do
         tested "$one" "$tool" || { [ -n "$two" ] && tested "$two" "$tool"; } || fail "$tool: no script shows what $one $two does"
     done <options
 done
 
-# The page is one that man can set, and options with words offer them.
+# man can format the page, and options with words offer them.
 if command -v groff >/dev/null; then
     for page in *.1; do
         groff -man -Tutf8 -ww "$page" >page.txt 2>warnings || fail "$page: $(cat warnings)"

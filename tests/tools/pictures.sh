@@ -1,16 +1,16 @@
-# sparselens-pictures, by which the other scripts judge: it sees what it should see, its pictures are what OpenImageIO reads, and
-# it finds each kind of difference.
+# sparselens-pictures, which the other scripts rely on: it finds what it should, OpenImageIO reads its pictures
+# correctly, and it reports each kind of difference.
 #   bash pictures.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 for tool in oiiotool exrheader; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools, openexr)"; done
-# finds PATTERN COMMAND...: the answer is no, and says why.
+# finds PATTERN COMMAND...: the answer is no, with a reason.
 finds() {
     exits 1 picture "${@:2}"
     grep -Eq "$1" stdout || fail "'$1' is not in: $(cat stdout)"
 }
 unsaid() { fails_saying 2 "$1" picture "${@:2}"; }
 
-# What it makes, as OpenImageIO and OpenEXR's own tool see it.
+# Its pictures, as read by OpenImageIO and OpenEXR's own tool.
 picture make a.exr 4x3+5+6 frame=20x10 R=0.5 G=1..4 B=noise:1 A=1 fill=2x1+6+7 R=0.25 all= 'R*=2' id=7 half=R,G set=shot:sq01 set=near:0.5
 oiiotool a.exr --ch R,G,A --printstats >stats
 grep -q 'Stats Avg: 0.916667 2.500000 1.000000' stats || fail "means: $(cat stats)"
@@ -62,7 +62,7 @@ finds 'pixel 0,0 has 1 and 2 samples' same near.exr both.exr
 finds 'Z of pixel 0,0 is 4 and 9' same near.exr far.exr Z
 finds "data windows" same a.exr both.exr
 
-# No answer is neither yes nor no.
+# Without an answer, the exit code is neither yes nor no.
 unsaid 'none.exr' same a.exr none.exr
 unsaid 'none.exr' differ a.exr none.exr
 head -c 400 a.exr >cut.exr

@@ -1,6 +1,6 @@
 #!/bin/bash
-# --recolor: deep samples get the colours of a flat picture, flattened they are that picture, and pairs that do not fit are
-# refused or warned of.
+# --recolor: deep samples get the colours of a flat picture; flattened they equal that picture; and pairs that do not
+# fit are refused or give a warning.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 pinhole=(--focal-length 50 --sensor-width 36 --focus-distance 6 --lens-radius 0)
@@ -10,19 +10,19 @@ differ() { picture differ "$@" >found 2>&1 || fail "$1 and $2 are the same"; }
 silent() { [ ! -s stderr ] || fail "$1: $(cat stderr)"; }
 warns() { [ "$(grep -c -e "warning: .*$1" stderr)" -eq 1 ] && [ "$(wc -l <stderr)" -eq 1 ] || fail "no single warning '$1': $(cat stderr)"; }
 
-# recoloured DEEP FLAT: its alpha, depth and back depth alone, in the colours of the flat picture, are the flat picture by
-# oiiotool, and by dof-gather at CoC 0.
+# recoloured DEEP FLAT: DEEP's alpha, depth and back depth alone, with the colours of the flat picture, equal the flat
+# picture when flattened by oiiotool, and by dof-gather at CoC 0.
 recoloured() {
     picture edit "$2" flat.exr channels=R,G,B,A float=
     exits 0 "$bin/ldi-cluster" "$1" --recolor flat.exr --tolerance 0 "${lens[@]}" -o out.exr
     silent "$1"
     oiiotool out.exr --flatten --ch R,G,B,A -o out-flat.exr
     same out-flat.exr flat.exr R,G,B 1e-3
-    same out-flat.exr flat.exr A 2e-3 # what half leaves of it in the samples of the file
+    same out-flat.exr flat.exr A 2e-3 # precision of half in the file's samples
     exits 0 "$bin/dof-gather" "$1" --recolor flat.exr "${pinhole[@]}" -o sharp.exr
     same sharp.exr flat.exr R,G,B,A 3e-3
 }
-# blurred DEEP: of what that left, the same in one step as in two.
+# blurred DEEP: recolouring and blurring in one step gives the same as in two.
 blurred() {
     exits 0 "$bin/dof-gather" "$1" --recolor flat.exr "${lens[@]}" -o one-step.exr
     exits 0 "$bin/dof-gather" out.exr "${lens[@]}" -o two-steps.exr
@@ -39,7 +39,7 @@ for scene in fence mist element; do
         rm $scene/deep_*.exr
     done
 done
-for file in Balls Leaves Trunks; do # deep files of others, where they are at hand
+for file in Balls Leaves Trunks; do # deep files by others, if they are there
     other=$source_dir/../shared/deep/$file.exr
     [ -e "$other" ] || continue
     oiiotool "$other" --flatten --ch R,G,B,A -o other.exr
@@ -68,13 +68,13 @@ rm -f x.exr
 # Several deep files are recoloured as one.
 exits 0 "$bin/ldi-cluster" near.deep.exr far.deep.exr --recolor plain.exr --tolerance 0 "${lens[@]}" -o merged.exr
 same merged.exr out.exr
-# Own colours do not matter.
+# The samples' own colours do not matter.
 oiiotool plain.exr --ch R,G,B,A,Z=2 --deepen -o coloured.exr
 exits 0 "$bin/ldi-cluster" coloured.exr --recolor plain.exr --tolerance 0 "${lens[@]}" -o own.exr
 oiiotool own.exr --flatten -o flat.exr
 same flat.exr plain.exr $passes,A 1e-3
 
-# Nuke's names are kept, frames go along, and an output does not overwrite the beauty.
+# Nuke's names are kept, frames are matched, and an output does not overwrite the beauty.
 picture edit plain.exr nuke.0001.exr channels=red=R,green=G,blue=B,alpha=A
 exits 0 "$bin/dof-gather" deep.exr --recolor nuke.####.exr --frames 1 "${lens[@]}" -o nuke-out.####.exr
 exits 0 "$bin/dof-gather" deep.exr --recolor plain.exr "${lens[@]}" -o by-name.exr
@@ -82,7 +82,7 @@ picture edit nuke-out.0001.exr back.exr channels=R=red,G=green,B=blue
 same back.exr by-name.exr R,G,B
 fails_saying 2 'would overwrite the input plain.exr' "$bin/ldi-cluster" deep.exr --recolor plain.exr "${lens[@]}" -o plain.exr
 
-# Colours of the beauty are made linear by the space that it states, or that is given; the result states it as well.
+# Colours of the beauty are made linear from its stated space, or from the given one; the result states it as well.
 picture edit plain.exr stated.exr set=oiio:ColorSpace:sRGB
 exits 0 "$bin/dof-gather" deep.exr --recolor plain.exr --colorspace sRGB "${pinhole[@]}" -o given.exr
 exits 0 "$bin/dof-gather" plain.exr --depth-file near.exr --colorspace sRGB "${pinhole[@]}" -o expected.exr
@@ -102,7 +102,7 @@ for option in --colorspace --colorconfig; do
     fails_saying 2 "$option.*--recolor" "$bin/ldi-cluster" deep.exr $option sRGB "${lens[@]}" -o x.exr
 done
 
-# What does not fit is warned of, with the number of pixels; light stays as it is in the flat picture.
+# Pixels that do not fit give a warning with their number; the light stays as in the flat picture.
 picture edit plain.exr wider.exr fill=4x4+0+0 A=1
 exits 0 "$bin/ldi-cluster" deep.exr --recolor wider.exr "${lens[@]}" -o out.exr
 warns 'wider.exr: its coverage differs from that of deep.exr in 16 of 576 pixels'
@@ -116,14 +116,14 @@ exits 0 "$bin/ldi-cluster" deep.exr --recolor nans.exr "${lens[@]}" -o out.exr
 warns 'nans.exr: 1 colour that is not finite'
 oiiotool out.exr --flatten -o flat.exr
 same flat.exr plain.exr R,A 1e-3
-# A sky that the deep picture lacks is at infinity; light without coverage keeps that.
+# A sky that the deep picture lacks is placed at infinity; light without coverage stays without.
 picture make sky.exr 32x18 R=1 G=1 B=1 A=0
 exits 0 "$bin/ldi-cluster" far.deep.exr --recolor sky.exr "${lens[@]}" -o out.exr
 warns 'differs from that of far.deep.exr in 288 of 576'
 oiiotool out.exr --flatten -o flat.exr
 same flat.exr sky.exr R,G,B 1e-3
 
-# Damaged or mismatched pairs: one line, which names the file, and no output.
+# Damaged or mismatched pairs: one line that names the file, and no output.
 picture edit plain.exr frame.exr frame=64x36
 picture edit plain.exr aspect.exr set=pixelAspectRatio:2
 picture make elsewhere.exr 32x18+40+0 R=1 G=1 B=1 A=1

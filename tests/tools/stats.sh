@@ -1,10 +1,10 @@
 #!/bin/bash
-# --stats of every stage: one line of JSON a stage and frame, whose numbers are right.
+# --stats of every stage: one line of JSON per stage and frame, with correct numbers.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 command -v python3 >/dev/null || skip "needs python3 to read JSON"
 
-# holds FILE LINE EXPRESSION...: each is true of that line (from 0), in Python, where s is the line.
+# holds FILE LINE EXPRESSION...: each expression is true in Python, where s is that line (from 0).
 holds() {
     local file=$1 line=$2
     shift 2
@@ -46,7 +46,7 @@ picture edit views/view_1.exr masked.exr R=0 G=0 B=0 A=0
 exits 0 "$bin/ldi-warp" views/center.exr half.exr masked.exr -o x.exr --stats partial.json
 holds partial.json 0 's["views"] == 3' 's["views_empty"] == 1' "s['pixels_given'] == 1.5 * $pixels" "s['pixels_not_given'] == 1.5 * $pixels"
 
-# A frame range: a line a frame; a pull of focus reads its LDI once.
+# A frame range: one line per frame; a focus pull reads its LDI once.
 exits 0 "$bin/dof-gather" ldi.exr -o pull.#.exr --frames 3-5 --focus-distance 3:2,5:8 --lens-samples 24 --channels R,A --stats frames.json
 [ "$(wc -l <frames.json)" -eq 3 ] || fail "not a line a frame: $(cat frames.json)"
 holds frames.json 0 's["frame"] == 3' 's["input_read"]'
@@ -55,14 +55,14 @@ picture edit views/center.exr more.exr channels=R,G,B,A,Z,more.R=R
 exits 0 "$bin/dof-gather" more.exr -o x.exr --channels rgba --stats more.json
 holds more.json 0 's["channels_left_out"] == ["more.R"]'
 
-# What is in focus is copied: a plane in focus, and a lens of no radius.
+# Tiles in focus are copied: with a plane in focus, and with a lens of radius 0.
 exits 0 "$bin/dof-trace" slant --size 192x128 --views 0 --spp 1 -o slant
 exits 0 "$bin/dof-gather" slant/center.exr -o x.exr --fstop 100 --stats focus.json
 holds focus.json 0 's["tiles"] == 6' 's["tiles_copied"] == 6' 's["lens_points"] == {}'
 exits 0 "$bin/dof-gather" slant/center.exr -o x.exr --lens-radius 0 --stats pinhole.json
 holds pinhole.json 0 's["tiles"] == 0'
 
-# The plan: what it asks for and what it does not.
+# The plan: the pixels that it asks for and the others.
 exits 0 "$bin/ldi-plan" views/center.exr -o plan.json --noise 0 --views 3 --stats plan_stats.json
 holds plan_stats.json 0 's["tool"] == "ldi-plan"' 's["views"] + s["views_left_out"] == 3' "s['pixels'] + s['pixels_left_out'] == 3 * $pixels" 's["pixels_left_out"] > 0'
 

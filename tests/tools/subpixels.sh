@@ -1,6 +1,6 @@
 #!/bin/bash
-# Sub-pixels together with what else changes a picture: files that disagree about them, windows that end within a pixel, each option of
-# dof-gather that counts pixels.
+# Sub-pixels combined with other features: files that disagree about them, windows that end within a pixel, each option
+# of dof-gather that counts pixels.
 #   bash subpixels.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
@@ -18,7 +18,7 @@ psnr_is() { # A B LEAST WHAT
 }
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.05 --focus-distance 4)
 
-# Files that disagree about the pixels of the picture are not put together; who knows better says it.
+# Files that disagree about the picture's pixels are not combined; an option can decide.
 exits 0 "$bin/dof-trace" fence --size 80x48 --spp 4 --views 2 --supersample 2 -o fine
 exits 0 "$bin/dof-trace" fence --size 160x96 --spp 1 --views 2 -o plain
 views=(view_0.exr view_1.exr)
@@ -36,7 +36,8 @@ exits 0 "$bin/ldi-cluster" plain.exr fine.exr -o swapped.exr --supersample 2
 for file in both swapped; do exits 0 "$bin/dof-gather" $file.exr -o $file-out.exr -d float; done
 same both-out.exr swapped-out.exr "two LDIs in either order" 1e-4
 
-# An LDI is the same whether files or the option say N, and so is the picture; N that the warp did not know of is refused.
+# The LDI is the same whether the files or the option give N, and so is the picture; an N that the warp did not know is
+# refused.
 for file in center "${views[@]%.exr}"; do oiiotool plain/$file.exr --eraseattrib ldi.supersample -o unsaid-$file.exr; done
 for n in 2 4; do
     for file in center "${views[@]%.exr}"; do oiiotool plain/$file.exr --attrib:type=int ldi.supersample $n -o says-$file.exr; done
@@ -53,13 +54,13 @@ done
 fails_saying 2 'plain.exr: it was warped for pixels of 1 x 1, not of 4 x 4' "$bin/dof-gather" plain.exr -o x.exr --supersample 4
 fails_saying 1 'made for a picture of another size' "$bin/dof-trace" fence --size 160x96 --plan says.json -o x # which says 4
 
-# A pixel to focus on that no picture has is an error, also one that would be within it if integers overflowed.
+# A focus pixel outside all pictures is an error, even if integer overflow would bring it inside.
 oiiotool plain/center.exr --attrib:type=int ldi.supersample 16 -o sixteen.exr
 for pixel in 268435456,0 -268435456,0 0,268435456; do
     fails_saying 2 '--focus-pixel: .* lies outside of sixteen.exr' "$bin/dof-gather" sixteen.exr -o x.exr --focus-pixel=$pixel
 done
 
-# A kept window that ends within a pixel covers it by a half, and a wide filter carries its light beyond.
+# A kept window that ends within a pixel covers half of it, and a wide filter carries its light beyond.
 picture make element.exr 13x12+40+30 frame=100x80 R=0.5 G=0.25 B=1 A=1 Z=2
 exits 0 "$bin/dof-gather" element.exr -o kept.exr -d float --lens-radius 0 --supersample 2 --overscan keep
 exits 0 "$bin/dof-gather" element.exr -o grown.exr -d float --lens-radius 0 --supersample 2
@@ -72,8 +73,8 @@ for overscan in keep crop grow; do
     sum_is wide.exr A 39 1e-3 "a wide filter with --overscan $overscan"
 done
 
-# What is shown of sub-pixels is the mean of what the large picture shows: with a holdout that begins within a pixel, in pixels that
-# are not square, by one view, and in bands.
+# Pictures of sub-pixels equal the mean of the large picture: with a holdout that begins within a pixel, with non-square
+# pixels, with one view, and in bands.
 large_and_small() { # IN OPTIONS...: small.exr, and expected.exr from the picture of all sub-pixels
     exits 0 "$bin/dof-gather" "$1" -d float -o large.exr --overscan crop --supersample 1 "${@:2}"
     oiiotool large.exr --resize:filter=box 80x48 -d float -o expected.exr
@@ -84,7 +85,8 @@ large_and_small fine.exr --lens-radius 0 --holdout card.exr
 same small.exr expected.exr "a holdout that ends within a pixel" 1e-5
 exits 0 "$bin/dof-gather" fine.exr -d float -o without.exr --overscan crop --lens-radius 0
 picture differ small.exr without.exr || fail "--holdout has no effect"
-# Lamps are spread exactly: more lens points than sub-pixels take are of no use to them. Discs of pixels twice as wide as high.
+# Lamps are spread exactly, so lens points beyond those that sub-pixels need do not help. Discs with pixels twice as
+# wide as high.
 picture make lamps.exr 160x96 frame=160x96 R=0.1 G=0.1 B=0.1 A=1 Z=8 fill=1x1+50+40 R=900 fill=1x1+101+61 G=700
 oiiotool lamps.exr --attrib:type=float PixelAspectRatio 2 -d float -o wide-lamps.exr
 large_and_small wide-lamps.exr "${lens[@]}"
@@ -97,7 +99,7 @@ exits 0 "$bin/dof-gather" fine.exr -d float -o proxy.exr --proxy 2
 exits 0 "$bin/dof-gather" fine.exr -d float -o quarter.exr --proxy 4 --supersample 1
 same proxy.exr quarter.exr "--proxy of sub-pixels"
 
-# --show: circles of confusion are those of the picture's pixels.
+# --show: circles of confusion are in the picture's pixels.
 exits 0 "$bin/dof-trace" fence --size 80x48 --spp 4 -o small-view
 for what in coc focus; do
     exits 0 "$bin/dof-gather" fine/center.exr -d float -o shown.exr --show $what
@@ -107,7 +109,7 @@ done
 exits 0 "$bin/dof-gather" fine.exr -o shown.png
 oiiotool --info shown.png | grep -q '80 x *48' || fail "PNG: $(oiiotool --info shown.png)"
 
-# --max-memory and bands: an LDI of many samples, gathered as a whole (--depth-out asks for all samples) and in bands.
+# --max-memory and bands: an LDI of many samples, gathered at once (--depth-out needs all samples) and in bands.
 if [ -x "$bin/sparselens-deep-scene" ]; then
     exits 0 "$bin/sparselens-deep-scene" apart 64 600 deep.exr
     how=(--lens-radius 2.25 --quality draft --supersample 2 -d float)
@@ -118,7 +120,8 @@ if [ -x "$bin/sparselens-deep-scene" ]; then
     done
 fi
 
-# Each eye of a stereo file is the picture of that eye's own file, with a lens; the mattes of a blurred pixel add up to all of it.
+# Each eye of a stereo file gives the same picture as that eye's own file, with a lens; the mattes of a blurred pixel
+# add up to all of it.
 for eye in left right; do
     oiiotool $([ $eye = left ] && echo fine || echo plain)/center.exr --attrib:type=string view $eye \
         --attrib:type=int ldi.supersample 2 -d float -o $eye.exr

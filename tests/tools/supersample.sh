@@ -1,5 +1,5 @@
 #!/bin/bash
-# Views, LDIs and pictures of sub-pixels: who says how many there are, and what becomes of them.
+# Views, LDIs and pictures of sub-pixels: which file or option gives their number, and its effect.
 #   bash supersample.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
@@ -11,7 +11,7 @@ says_none() { ! grep -q 'ldi\.supersample\|ldi\.pixelFilter' <<<"$(exrheader "$1
 # halved FINE OUT WxH: the mean of each 2 x 2 pixels.
 halved() { oiiotool "$1" --resize:filter=box "$3" -d float -o "$2"; }
 
-# dof-trace: as many rays in smaller pixels; the reference is the picture.
+# dof-trace: the same number of rays in smaller pixels; the reference has the picture's size.
 exits 0 "$bin/dof-trace" fence --size 80x48 --spp 8 --views 2 --supersample 2 --overscan 2 --reference 1 --deep visible -o views
 exits 0 "$bin/dof-trace" fence --size 160x96 --spp 2 --views 2 --overscan 4 -o plain
 for file in center view_0 view_1; do
@@ -25,7 +25,7 @@ expect_window views/reference.exr displayWindow '(0 0) - (79 47)'
 expect_window views/center.exr dataWindow '(-4 -4) - (163 99)'
 fails_saying 2 '--spp must be a multiple of 4' "$bin/dof-trace" fence --spp 6 --supersample 2 -o x
 
-# Every tool that writes views, plans or LDIs says so again; a plan is rendered in the same pixels.
+# Every tool that writes views, plans or LDIs repeats the number; a plan is rendered in the same pixels.
 exits 0 "$bin/ldi-plan" views/center.exr -o plan.json
 exits 0 "$bin/dof-trace" fence --size 80x48 --spp 8 --supersample 2 --overscan 2 --plan plan.json -o planned
 says_two planned/view_0.exr
@@ -37,12 +37,12 @@ says_two ldi.exr
 exits 0 "$bin/ldi-cluster" warped.exr views/deep_visible.exr -o merged.exr
 says_two merged.exr
 
-# dof-gather: the picture has the size that it is for, and each of its pixels is the mean of four; --supersample 1 shows these,
-# and a file that says nothing is told.
+# dof-gather: the picture has the intended size, and each of its pixels is the mean of four; --supersample 1 shows
+# these, and files without the attribute need the option.
 exits 0 "$bin/dof-gather" ldi.exr -d float -o out.exr --depth-out depth.exr
 expect_window out.exr displayWindow '(0 0) - (79 47)'
 expect_window out.exr dataWindow '(-2 -2) - (81 49)'
-expect_window out.exr sparselens:dataWindow '' # that of the LDI, in sub-pixels
+expect_window out.exr sparselens:dataWindow '' # the LDI's, in sub-pixels
 says_none out.exr
 exits 0 "$bin/dof-gather" ldi.exr -d float -o full.exr --supersample 1 --depth-out full-depth.exr
 expect_window full.exr displayWindow '(0 0) - (159 95)'
@@ -58,7 +58,7 @@ exits 0 "$bin/dof-gather" wrong.exr -d float -o x.exr -v
 grep -q 'ldi.supersample is 99, not from 1 to 16; --supersample settles it' stderr || fail "99 sub-pixels: $(cat stderr)"
 same x.exr full.exr "99 sub-pixels"
 
-# Depth is that of one sub-pixel, never a mean: the one in the middle. So is the pixel to focus on.
+# Depth is that of one sub-pixel, the middle one, and never a mean. The same holds for the focus pixel.
 at() { picture pixel "$1" "$2" Z; }
 for pixel in 3,5 40,24 70,13; do
     [ "$(at depth.exr $pixel)" = "$(at full-depth.exr $((2 * ${pixel%,*} + 1)),$((2 * ${pixel#*,} + 1)))" ] || fail "the depth of pixel $pixel"
@@ -93,7 +93,7 @@ expect_window proxy.exr displayWindow '(0 0) - (39 23)'
 exits 0 "$bin/dof-gather" ldi.exr -o shown.exr --show tiles
 expect_window shown.exr displayWindow '(0 0) - (79 47)'
 
-# The picture is the mean of the sub-pixels: by each method, with looks, in frames, on a device: as the large picture has it.
+# The picture equals the mean of the large picture's sub-pixels: with each method, with looks, in frames, on a device.
 as_large() { # OPTIONS...: small.exr and expected.exr of the display window
     exits 0 "$bin/dof-gather" ldi.exr -d float -o large.exr --supersample 1 "$@"
     picture edit large.exr cut.exr crop=160x96
@@ -105,8 +105,8 @@ as_large --method selective
 same small.exr expected.exr "--method selective" 1e-5
 as_large --lens-radius 0
 same small.exr expected.exr "--lens-radius 0" 1e-5
-# With lens points of its own choice, and in cells where all is far out of focus, 0.3 dB below what it was measured to be from
-# 1024 lens points at each sub-pixel: docs/tolerances.md, section 5.
+# With lens points of its own choice, and in cells where everything is far out of focus: at most 0.3 dB below the
+# measured distance from 1024 lens points at each sub-pixel (docs/tolerances.md, section 5).
 far='--focus-distance 0.5 --lens-radius 0.2'
 while read -r measured look; do
     exits 0 "$bin/dof-gather" ldi.exr -d float -o large.exr --supersample 1 --lens-samples 1024 $look
@@ -136,7 +136,7 @@ if [ "$name" != "Vulkan gives access to no device here" ]; then
     same device.exr out.exr "--device" 1e-4
 fi
 
-# A holdout has the LDI's size, or the picture's; either hides the same.
+# A holdout has the LDI's size, or the picture's; both hide the same.
 card() { oiiotool --pattern constant:color=1,0,0,1,3 "$1" 5 --chnames R,G,B,A,Z --fullsize "$2" -d float --deepen -o "$3"; }
 card 80x96 160x96 fine.exr
 card 40x48 80x48 coarse.exr
@@ -149,7 +149,7 @@ done
 card 20x24 40x24 other.exr
 fails_saying 1 'other.exr: its display window differs' "$bin/dof-gather" ldi.exr -o x.exr --holdout other.exr
 
-# An element over nothing that ends within a pixel covers it by a half, with and without a lens.
+# An element over nothing that ends within a pixel covers half of it, with and without a lens.
 picture make element.exr 13x12+40+30 frame=100x80 R=0.5 G=0.25 B=1 A=1 Z=2
 exits 0 "$bin/dof-gather" element.exr -o half.exr --lens-radius 0 --supersample 2 -d float
 expect_window half.exr dataWindow '(20 15) - (26 20)'
@@ -158,7 +158,7 @@ lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.05 --focus-distance 4)
 exits 0 "$bin/dof-gather" element.exr -o blurred.exr "${lens[@]}" --supersample 2 -d float
 awk -v a="$(picture sum blurred.exr A)" 'BEGIN { exit !(a > 38 && a < 40) }' || fail "light is lost: $(picture sum blurred.exr A) of 39"
 
-# Mattes: the coverage of an id is the mean, and no id is one. Data and ids are those of a sub-pixel. Of each eye.
+# Mattes: the coverage of an id is a mean, but ids are not. Data and ids come from one sub-pixel. For each eye.
 names=R,G,B,A,Z,CryptoObject00.R,CryptoObject00.G,IndexOB.X,N.X
 oiiotool --pattern constant:color=1,0,0,1,2,2.5e38,1,7,0.75 13x16 9 --chnames $names -d float -o left.exr
 oiiotool left.exr --pattern constant:color=0,1,0,1,6,1.5,1,3,-0.5 24x16 9 --chnames $names --paste +0+0 -d float -o ids.exr
@@ -174,6 +174,6 @@ exits 0 "$bin/dof-gather" stereo.exr -o eye.%V.exr --stereo-view all --lens-radi
 expect_window eye.left.exr displayWindow '(0 0) - (79 47)'
 expect_window eye.right.exr displayWindow '(0 0) - (79 47)'
 
-# Figures by region: those of the picture, by the LDI of its sub-pixels.
+# Figures by region: regions of the picture, from the LDI of its sub-pixels.
 exits 0 "$bin/dof-compare" out.exr views/reference.exr --regions ldi.exr --json
 grep -q silhouettes stdout || fail "dof-compare --regions: $(cat stdout)"

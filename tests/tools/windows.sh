@@ -1,4 +1,4 @@
-# Which pixels are made, and at which size: --region, --proxy, --overscan. And --holdout, which is put where it stands.
+# Which pixels are made, and at which size: --region, --proxy, --overscan. And --holdout, which is placed by its depth.
 #   bash windows.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 window() { exrheader "$1" | sed -nE "s/^$2 \(type box2i\): //p"; } # FILE dataWindow|displayWindow
@@ -37,7 +37,8 @@ for box in 1,2,3 a,b,c,d 5,5,4,9 1,2,3,4,5 ''; do
 done
 fails_saying 2 'region contains no pixel' "$bin/dof-gather" ldi.exr -o x.exr --region 500,500,600,600
 
-# --proxy: without a lens the mean of the pixels; with one, what the large picture's mean is, but for the coarser samples.
+# --proxy: without a lens the mean of the pixels; with one, the mean of the large picture, except for the coarser
+# samples.
 exits 0 "$bin/dof-gather" ldi.exr -o flat.exr --lens-radius 0 -d float
 exits 0 "$bin/dof-gather" ldi.exr -o small.exr --lens-radius 0 -d float --proxy 2
 expect_window small.exr dataWindow '(-4 -4) - (83 51)'
@@ -52,8 +53,8 @@ psnr=$(sed -nE 's/.*"psnr_tonemapped": *([0-9.]+).*/\1/p' stdout | head -1)
 [ "${psnr%.*}" -ge 30 ] || fail "--proxy 2 is $psnr dB from the reduced picture"
 fails_saying 2 '--proxy' "$bin/dof-gather" ldi.exr -o x.exr --proxy 0
 
-# --overscan: an element whose data window is tight in an empty frame keeps its light, and its blur its shape, unless
-# its pixels are kept. It grows by its own blur, and where it is sharp not at all.
+# --overscan: an element with a tight data window in an empty frame keeps its light and the shape of its blur, unless
+# its pixels are kept. It grows by its own blur; a sharp element does not grow.
 picture make element.exr 12x12+40+30 frame=100x80 R=0.5 G=0.25 B=1 A=1 Z=2
 focal=(--focal-length 50 --sensor-width 36 -d float)
 lens=("${focal[@]}" --lens-radius 0.05 --focus-distance 4) # CoC 1.7 px of 100
@@ -70,14 +71,14 @@ exits 0 "$bin/dof-gather" element.exr -o sharp.exr "${focal[@]}" --lens-radius 0
 expect_window sharp.exr dataWindow '(40 30) - (51 41)'
 exits 0 "$bin/dof-gather" element.exr -o sharp.exr --lens-radius 0
 expect_window sharp.exr dataWindow '(40 30) - (51 41)'
-exits 0 "$bin/dof-gather" element.exr -o grown.exr "${focal[@]}" --lens-radius 5 --focus-distance 4 # CoC 174 px: all of the display window
+exits 0 "$bin/dof-gather" element.exr -o grown.exr "${focal[@]}" --lens-radius 5 --focus-distance 4 # CoC 174 px
 expect_window grown.exr dataWindow '(0 0) - (99 79)'
 for method in selective scatter; do
     exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --method $method
     expect_window grown.exr dataWindow '(37 27) - (54 44)'
 done
 
-# How much overscan a picture needs is said with -v, and without it where the disc of a lamp is cut.
+# -v reports how much overscan a picture needs. Without -v it is reported if the disc of a lamp is cut off.
 picture make wall.exr 40x20 R=0.5 G=0.5 B=0.5 A=1 Z=20
 wide=(--focal-length 50 --sensor-width 36 --lens-radius 0.5 --focus-distance 4) # CoC 5.6 px of 40
 exits 0 "$bin/dof-gather" wall.exr -o x.exr "${wide[@]}" -v
@@ -91,7 +92,7 @@ for tool in dof-gather ldi-warp; do
     exits 0 "$bin/$tool" lamp.exr -o x.exr "${wide[@]}"
     grep -q 'warning: .* discs of lights outside the frame are missing' stderr || fail "$tool: no warning: $(cat stderr)"
 done
-# Of a range of frames it is said once, and of the others with -v.
+# In a range of frames it is reported once, and for the others with -v.
 exits 0 "$bin/dof-gather" lamp.exr -o lamp.#.exr --frames 1-3 "${wide[@]}"
 [ "$(grep -c 'warning: .* discs of lights outside the frame are missing' stderr)" -eq 1 ] || fail "not one warning: $(cat stderr)"
 exits 0 "$bin/dof-gather" lamp.exr -o lamp.#.exr --frames 1-3 "${wide[@]}" -v
@@ -100,7 +101,7 @@ exits 0 "$bin/dof-gather" lamp.exr -o lamp.#.exr --frames 1-3 "${wide[@]}" -v
     fail "-v does not say it of each frame: $(cat stderr)"
 rm x.exr lamp.*.exr
 
-# --holdout: what is behind it goes, at its edge from one pixel to the next; what is in front stays.
+# --holdout: things behind it disappear, at its edge from one pixel to the next; things in front stay.
 picture make wall.exr 40x20 R=0.5 G=0.5 B=0.5 A=1 Z=20
 oiiotool --pattern constant:color=1,0,0,1,3 20x20 5 --chnames R,G,B,A,Z --fullsize 40x20 -d float --deepen -o card.exr
 exits 0 "$bin/dof-gather" wall.exr -o free.exr "${lens[@]}"
@@ -116,7 +117,8 @@ same held.exr front.exr "--holdout hides what is in front of it"
 fails_saying 2 '--holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout card.exr --method scatter
 fails_saying 1 'element.exr.*display window' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout element.exr
 
-# --holdout-defocused: the holdout is blurred as in the scene of both; here it is black, so the colours are that scene's.
+# --holdout-defocused: the holdout is blurred as in the scene of both; here it is black, so the colours equal that
+# scene's.
 oiiotool card.exr --flatten --ch R,G,B,A,Z --mulc 0,0,0,1,1 --deepen -o black.exr
 exits 0 "$bin/ldi-cluster" wall.exr black.exr -o both.exr --tolerance 0 --focal-length 50 --sensor-width 36 --lens-radius 0.05
 exits 0 "$bin/dof-gather" both.exr -o expected.exr "${lens[@]}" --channels R,G,B
@@ -125,7 +127,7 @@ picture same held.exr expected.exr 1e-5 >found || fail "--holdout-defocused ($(c
 fails_saying 2 'holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout-defocused
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 
-# A display window of billions of pixels around a few: nothing that fills it is made of a small file.
+# A display window of billions of pixels around a few: a small file must not make anything that fills it.
 picture make vast.exr 16x16 frame=60000x60000 R=0.5 G=0.5 B=0.5 A=1 Z=4
 vast() { "$bin/dof-gather" vast.exr --focal-length 50 --sensor-width 36 --focus-distance 2 "$@"; }
 exits 0 vast --lens-radius 0.1 --overscan keep -o x.exr

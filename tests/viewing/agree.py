@@ -1,6 +1,6 @@
-"""agree.py BIN_DIR LDI OPTIONS...: the picture that a page of dof-view shows is, byte by byte, that of dof-gather with the same
-options, and so is that of the command which the page copies for PNG; the one for EXR writes that. LDI may be a sequence, of which each
-frame is compared."""
+"""agree.py BIN_DIR LDI OPTIONS...: a page of dof-view shows, byte by byte, the picture of dof-gather with the same
+options. The command that the page copies for PNG gives the same picture, and the one for EXR writes dof-gather's. LDI
+may be a sequence; then each frame is compared."""
 import subprocess
 import sys
 
@@ -11,7 +11,7 @@ folder, ldi, *options = sys.argv[1:]
 
 
 def runs(command):
-    """Returns the name of the file that it writes."""
+    """Runs the command; returns the name of the file that it writes."""
     tool, words = command.split(" ", 1)
     assert tool == "dof-gather", command
     subprocess.run(f"{folder}/dof-gather {words}", shell=True, check=True)

@@ -1,5 +1,5 @@
-"""browser.py BIN_DIR LDI REFERENCE MATTES [FOLDER]: the page of dof-view in a browser, by hand and by keys. MATTES has two
-objects, near on the left and far on the right. Screenshots go to FOLDER."""
+"""browser.py BIN_DIR LDI REFERENCE MATTES [FOLDER]: the page of dof-view in a browser, with mouse and keys. MATTES has
+two objects, a near one on the left and a far one on the right. Screenshots go to FOLDER."""
 import os
 import re
 import subprocess
@@ -22,16 +22,16 @@ class Page:
         self.rests()
 
     def rests(self, quality="normal"):
-        """The picture of all settings is there."""
+        """Waits until the picture has all settings."""
         self.browser.until(f"document.body.dataset.quality === '{quality}' && !flow.drafting && flow.full % 2 === 0", 120)
 
     def at(self, x, y):
-        """Where in the window the middle of a pixel of the picture is."""
+        """The window position of the middle of a pixel of the picture."""
         return self.browser.run("const f = part('frame').getBoundingClientRect(); return [f.left + place.x + (arguments[0] + .5) * place.zoom,"
                                 "f.top + place.y + (arguments[1] + .5) * place.zoom]", x, y)
 
     def does(self, action, *arguments):
-        """Something that changes the picture: until it rests again."""
+        """Does something that changes the picture, and waits until it is complete again."""
         self.browser.run("document.body.dataset.quality = ''")
         action(*arguments)
         self.rests()
@@ -44,7 +44,7 @@ class Page:
                                 "Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).join()]", canvas)
 
     def writes(self, form):
-        """Commands are for such files from now on."""
+        """Makes commands write files of this format from now on."""
         self.browser.run("part('format').value = arguments[0]; part('format').dispatchEvent(new Event('change'))", form)
         self.browser.until(f"part('command').value.endsWith('.{form}')")
 
@@ -53,14 +53,14 @@ class Page:
                          "field.dispatchEvent(new Event('input')); field.dispatchEvent(new Event('change'))", field, text)
 
     def set_keys(self, keys):
-        """Of the focus distance: its values by frames."""
+        """Sets keys of the focus distance, from a frame -> value table."""
         for frame, focus in keys.items():
             self.does(self.browser.run, f"goTo({frame})")
             self.does(self.browser.run, f"set('focus-distance', {focus})")
             self.browser.press("k")
 
     def copies(self, form, expected):
-        """What the timeline copies in that form, of which that is a part."""
+        """Copies from the timeline in that form; the result must contain the text."""
         self.browser.run("part('form').value = arguments[0]; part('command').value = ''; part('copy_time').click()", form)
         return self.browser.until(f"part('command').value.includes({expected!r}) && part('command').value")
 
@@ -94,7 +94,7 @@ def is_documented(page):
 
 
 def focuses(page):
-    """A click states the distance of --focus-pixel."""
+    """A click gives the same distance as --focus-pixel."""
     for x, y in ((60, 50), (100, 20), (30, 60)):
         expected = subprocess.run([folder + "/dof-gather", ldi, "-v", "--focus-pixel", f"{x},{y}", "--lens-radius", "0", "-o", "any.exr"],
                                   check=True, capture_output=True, text=True).stderr
@@ -122,7 +122,7 @@ def moves(page):
 
 
 def is_exact(page):
-    """Final is what dof-gather writes, and the command that the page copies makes it."""
+    """Final equals dof-gather's picture, and so does that of the copied command."""
     page.browser.press(ENTER)
     page.rests("final")
     page.browser.until("part('command').value.includes('final')")
@@ -140,7 +140,7 @@ def is_exact(page):
 def compares(page):
     browser = page.browser
     clip = "return part('above').style.clipPath.replace('0px', '0')"
-    browser.run("part('slide').focus()") # keys are for the page, whichever button was pressed last
+    browser.run("part('slide').focus()") # keys work whichever button was pressed last
     browser.press("w")
     browser.until("part('below').width > 1 && !part('border').hidden")
     assert "50%" in browser.run(clip), browser.run(clip)
@@ -192,7 +192,7 @@ def shows(page):
     assert browser.run("const disc = part('lens_disc').getBoundingClientRect(), eye = part('eye_at').getBoundingClientRect();"
                        "return eye.left > disc.left + disc.width / 2 && eye.top > disc.top + disc.height / 2")
     page.shot("eye")
-    for direction in range(12): # the rim: rounded, it is still in the lens
+    for direction in range(12): # the rim: still in the lens when rounded
         page.does(browser.run, f"setEye([2 * Math.cos({direction} * .53), 2 * Math.sin({direction} * .53)])")
         assert browser.run("return part('said').textContent") == ""
     page.does(browser.press, "e")
@@ -261,7 +261,7 @@ def has_keys(page):
 
 
 def has_pieces(browser):
-    """Tiles of the picture come before all of it."""
+    """Tiles appear before the whole picture."""
     with served(folder + "/dof-view", ldi, "--lens-samples", "20000", "--threads", "1") as server:
         browser.open(server.address)
         browser.until("flow.pieces > 0 && flow.full % 2 === 1 && part('above').width === 160")
@@ -313,7 +313,7 @@ def knows_objects(browser):
             marked = [int(value) for value in page.pixels("marks")[2].split(",")]
             assert marked[4 * (8 * 24 + 12) + 3] == (255 if name == "far" else 0) and marked[4 * (8 * 24 + 11) + 3] == (255 if name == "near" else 0)
         page.shot("objects")
-        browser.until("getComputedStyle(part('marks')).opacity === '0'") # the edge can be judged
+        browser.until("getComputedStyle(part('marks')).opacity === '0'") # so that the edge can be judged
         browser.pointer(("move", *page.at(21, 8)))
         browser.until("getComputedStyle(part('marks')).opacity === '1'")
         page.does(page.click, 20, 8, SHIFT)
@@ -336,11 +336,11 @@ def has_frames_of_any_size(browser):
 
 
 def is_forgiving(page):
-    """What is typed wrongly is not set; steps are undone; a reload keeps what is set."""
+    """Wrong input is not set; steps can be undone; a reload keeps the settings."""
     browser = page.browser
     page.does(page.types, "focus_text", "3.5")
     page.does(page.types, "focus_text", "7")
-    page.does(browser.press, "z", CONTROL) # though the field was the last to be written in
+    page.does(browser.press, "z", CONTROL) # although the field was written in last
     assert browser.run("return [state.settings['focus-distance'], part('focus_text').value]") == ["3.5", "3.5"]
     for wrong in ("abc", "1,5", "60cm", "0", "-1"):
         page.types("focus_text", wrong)
@@ -373,7 +373,8 @@ def is_forgiving(page):
 
 
 def outlives_the_server(browser):
-    """A bar says that nobody answers; the page goes on when somebody does, and at another address with what was set."""
+    """A bar says that the server does not answer; the page continues when it does, and at another address with the same
+    settings."""
     with served(folder + "/dof-view", ldi) as server:
         page = Page(browser, server)
         page.does(browser.run, "set('focus-distance', 2.5)")
@@ -385,7 +386,7 @@ def outlives_the_server(browser):
         browser.set_online(True)
         browser.until("part('ended').hidden && state.lens.focus === 2.75")
         page.rests()
-    browser.until("!part('ended').hidden") # though nobody touches the page
+    browser.until("!part('ended').hidden") # without any action on the page
     with served(folder + "/dof-view", ldi) as server:
         for address in ("abc", "http://example.org/?key=1", server.address):
             browser.run("part('address').value = arguments[0]; part('go_on').requestSubmit()", address)
@@ -394,7 +395,7 @@ def outlives_the_server(browser):
 
 
 def guesses_a_lens(browser):
-    """A flat file without a lens is shown, and the page says what it was shown with."""
+    """A flat file without a lens is shown, and the page says with which lens."""
     subprocess.run(["oiiotool", "--pattern", "constant:color=.5,.4,.3,1,4", "96x54", "5", "--chnames", "R,G,B,A,Z", "-d", "float", "-o", "flat.exr"], check=True)
     with served(folder + "/dof-view", "flat.exr") as server:
         page = Page(browser, server)
@@ -406,7 +407,7 @@ def guesses_a_lens(browser):
 
 
 def survives_names(browser):
-    """A name with all that a shell reads goes through the copied commands."""
+    """A name with special characters of a shell works in the copied commands."""
     name = """a $HOME `id` "b" it's.exr"""
     os.symlink(os.path.abspath(ldi), name)
     os.mkdir("queue")
@@ -465,7 +466,7 @@ def main():
             has_keys(page)
             wrong = [line for line in browser.log() if "400 (Bad Request)" not in line and "409 (Conflict)" not in line]
             assert not wrong, wrong
-            # A second page, while the first one is open, with settings of its own.
+            # A second page with its own settings, while the first one is open.
             settings = {"focus-distance": "2.5"}
             said = apart(server.ask("/picture", page="second", settings=settings))[0]
             assert said["lens"]["focus"] == 2.5

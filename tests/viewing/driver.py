@@ -1,4 +1,4 @@
-"""A browser by the WebDriver protocol: Chromium and its driver, without further modules."""
+"""Controls a browser by the WebDriver protocol: Chromium and its driver, without further modules."""
 import base64
 import json
 import shutil
@@ -11,7 +11,7 @@ ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
 def missing():
-    """What is not there, or None."""
+    """The missing program, or None."""
     if not (shutil.which("chromium") or shutil.which("google-chrome")):
         return "chromium"
     return None if shutil.which("chromedriver") else "chromium-driver"
@@ -52,7 +52,7 @@ class Browser:
         self.call("POST", "/chromium/network_conditions", {"network_conditions": conditions})
 
     def resize(self, width, height):
-        """Of what is inside the window."""
+        """Sets the inner size of the window."""
         self.call("POST", "/window/rect", {"width": width, "height": height})
         inner = self.run("return [innerWidth, innerHeight]")
         self.call("POST", "/window/rect", {"width": 2 * width - inner[0], "height": 2 * height - inner[1]})
@@ -61,11 +61,11 @@ class Browser:
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def run_async(self, script, *arguments):
-        """The script calls its last argument with the result."""
+        """Runs a script that passes its result to its last argument."""
         return self.call("POST", "/execute/async", {"script": script, "args": list(arguments)})
 
     def until(self, script, seconds=60):
-        """Waits until the script gives what is true, which is the result."""
+        """Waits until the script returns a true value, and returns it."""
         end = time.monotonic() + seconds
         while True:
             value = self.run("return " + script)
@@ -76,7 +76,8 @@ class Browser:
             time.sleep(0.05)
 
     def pointer(self, *actions, held=None):
-        """Each: ("move", x, y), ("down",), ("up",), ("wait", ms); in the window, while a key is held."""
+        """Each event: ("move", x, y), ("down",), ("up",), ("wait", ms); positions in the window; optionally while a key
+        is held."""
         steps = []
         for action in actions:
             if action[0] == "move":
@@ -108,7 +109,7 @@ class Browser:
             file.write(base64.b64decode(self.call("GET", "/screenshot")))
 
     def log(self):
-        """What the browser complains of."""
+        """The browser's error messages."""
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
 
     def end(self):

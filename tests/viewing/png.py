@@ -1,10 +1,10 @@
-"""A PNG file of 8 bits, RGB or RGBA, by the rules of its specification and zlib alone."""
+"""Reads a PNG file of 8 bits, RGB or RGBA, with only the rules of its specification and zlib."""
 import struct
 import zlib
 
 
 def read_png(path):
-    """Width, height, channels, bytes."""
+    """Returns width, height, channels, bytes."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path

@@ -1,4 +1,4 @@
-"""protocol.py BIN_DIR LDI REFERENCE: what dof-view answers, what it refuses, and what it bears."""
+"""protocol.py BIN_DIR LDI REFERENCE: the answers of dof-view, its refusals, and its behaviour under load."""
 import concurrent.futures
 import contextlib
 import json
@@ -67,7 +67,7 @@ def refuses(server):
     for body in (b"", b"{", b"[]", b"null", b"\xff\xfe", b"[" * 16000, b'{"page": 1}', b'{"page": "../a"}', b'{"settings": {}}', b'{"page":"a","x":1}',
                  b'{"page":"a","pixel":[1]}', b'{"page":"a","pixel":[1e99,2]}', b'{"page":"a","exposure":1e9}', b'{"page":"a","settings":[]}'):
         assert status(server, body) == 400, body
-    # A page names no file, and sets nothing that is not about the picture.
+    # A page can name no file, and can only set options of the picture.
     for settings in ({"lens": "x"}, {"holdout": "x"}, {"colorconfig": "x"}, {"output": "x"}, {"threads": "9"}, {"aperture": "x"}, {"device": "gpu"},
                      {"fstop": "/etc/passwd"}, {"fstop": "2 --lens x"}, {"fstop": 2}, {"fstop": "-1"}, {"fstop": "two"}, {"tilt": "1"}, {"show": "all"},
                      {"blades": "2"}, {"fstop": "2" * 65}):
@@ -95,7 +95,8 @@ def listens_here_alone(server):
 
 
 def bears_many(server):
-    """1000 connections that say nothing, or half a request byte by byte, and stay: memory stays, and a page is answered beside them."""
+    """1000 silent connections, or ones that send half a request byte by byte: memory does not grow, and a page is still
+    answered."""
     before = server.memory()
     many = []
     for i in range(1000):
@@ -133,7 +134,8 @@ def bears_many(server):
 
 
 def bears_lines_without_end(server):
-    """Four lines of 64 MB, with and without a request before them: memory stays, and none is read to its end."""
+    """Four lines of 64 MB, with and without a request before them: memory does not grow, and none is read to its
+    end."""
     before = server.memory()
     piece = b"y" * 65536
     for begun in (b"", b"GET / HTTP/1.1\r\nHost: ", b"POST /picture HTTP/1.1\r\nContent-Length: 64000000\r\n\r\n", b"GET /?key="):
@@ -149,10 +151,10 @@ def bears_lines_without_end(server):
 
 
 def bears_little_memory():
-    """Where a picture finds no memory, the page is told, and the next is made."""
+    """If a picture finds no memory, the page is told, and the next picture is made."""
     subprocess.run([program.replace("dof-view", "dof-trace"), "fence", "--size", "640x360", "--spp", "1", "--views", "0", "-o", "large"], check=True)
     with served(program, "large/center.exr") as server:
-        server.said("/facts") # and that page's threads are there
+        server.said("/facts") # starts that page's threads
         size = int(server.memory("VmSize") * 2**20)
         resource.prlimit(server.process.pid, resource.RLIMIT_AS, (size, resource.RLIM_INFINITY))
         code, why = server.send("/picture", json.dumps({"page": "a", "settings": {}}).encode())
@@ -162,7 +164,7 @@ def bears_little_memory():
 
 
 def newest_wins(server):
-    """Ten moves, each before the last one's picture can be there, leave one picture; other pages keep theirs."""
+    """Ten moves, each before the picture of the last one can be ready, give one picture; other pages keep theirs."""
     def move(i):
         return server.send("/picture", json.dumps({"page": "moving", "settings": {"focus-distance": str(2 + i)}}).encode())
 
@@ -173,7 +175,7 @@ def newest_wins(server):
             pass
         for i in range(1, 10):
             moves.append(pool.submit(move, i))
-            moves[i - 1].result() # once the newer one has come
+            moves[i - 1].result() # after the newer one has come
         other = pool.submit(server.picture, page="other", settings={"focus-distance": "20"})
         codes = [done.result()[0] for done in moves]
         assert other.result()[0]["lens"]["focus"] == 20
@@ -183,7 +185,7 @@ def newest_wins(server):
 
 
 def makes_pieces(server):
-    """Tiles from a pixel outwards, before the picture is there and as they are in it, for their page alone."""
+    """Tiles from a pixel outwards, before the picture is complete and with its values, only for their page."""
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         done = pool.submit(server.picture, page="b", settings={}, pixel=[150, 80])
         found = []
@@ -208,7 +210,7 @@ def makes_pieces(server):
 
 
 def knows_frames(folder):
-    """Each frame is that of dof-gather, keyed values are those of the frame, and what comes next is there ahead."""
+    """Each frame equals that of dof-gather, keyed values are those of the frame, and the next frames are read ahead."""
     sequence = os.path.join(folder, "shot.####.ldi.exr")
     for number, source in ((3, ldi), (4, reference), (5, ldi), (7, ldi)):
         os.symlink(os.path.abspath(source), sequence.replace("####", f"{number:04}"))
@@ -256,7 +258,7 @@ def main():
         assert sorted(os.listdir(folder)) == sorted(map(os.path.basename, files)) and len(set(files)) == 2, files
     with tempfile.TemporaryDirectory() as folder:
         knows_frames(folder)
-    with served(program, ldi) as server: # as where its terminal is closed
+    with served(program, ldi) as server: # as when its terminal is closed
         os.kill(server.process.pid, signal.SIGHUP)
         assert server.process.wait(timeout=20) == -signal.SIGHUP
 

@@ -1,4 +1,4 @@
-"""A dof-view that runs, and what it answers: for the tests of it."""
+"""Starts a dof-view and reads its answers, for its tests."""
 import contextlib
 import json
 import struct
@@ -17,7 +17,7 @@ class Served:
         self.port = int(self.base.rsplit(":", 1)[1])
 
     def send(self, path, body, headers=None, timeout=120):
-        """Status and bytes."""
+        """Returns status and bytes."""
         headers = {"X-Sparselens-Key": self.key, "Content-Type": "application/json", **(headers or {})}
         request = urllib.request.Request(self.base + path, body, headers)
         try:
@@ -36,11 +36,11 @@ class Served:
         return json.loads(self.ask(path, **asked))
 
     def picture(self, path="/picture", **asked):
-        """What is said of it, and its pixels."""
+        """Returns the JSON of an answer and its pixels."""
         return apart(self.ask(path, **asked))
 
     def memory(self, what="VmRSS"):
-        """Of the process, in MB."""
+        """Memory of the process, in MB."""
         with open(f"/proc/{self.process.pid}/status") as status:
             return next(int(line.split()[1]) / 1024 for line in status if line.startswith(what))
 
