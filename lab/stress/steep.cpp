@@ -30,8 +30,8 @@ StressResult tilted_plane() {
     return result;
 }
 
-// Bumps whose sides are up to 1 pixel of CoC a pixel steep, textured, before a ground of radiance 10; the border between
-// two tiles runs through them.
+// Textured bumps whose sides are up to 1 pixel of CoC per pixel steep, before a ground of radiance 10; the border
+// between two tiles runs through them.
 StressResult bumps() {
     constexpr double height = 3;
     const ThinLens lens = near_lens();

@@ -69,8 +69,8 @@ TEST(EdgeDepths, OtherDepthsStay) {
     }
 }
 
-// Of a strand the renderer gave only the first pixel a depth. Before nothing the depth continues along all of it;
-// elsewhere, pixels without depth get one only near a known depth.
+// Only the first pixel of the row has a depth. Before nothing the row is a strand, and takes that depth up to 10 pixels
+// away; otherwise pixels without a depth of their own take it only up to 2 pixels away.
 TEST(EdgeDepths, AStrandOverNothingGoesOn) {
     for (const bool nothing : {true, false}) {
         View view = make_view(windows_of_size(14, 2), {0, 0}, [&](int x, int y) {

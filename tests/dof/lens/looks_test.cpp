@@ -299,8 +299,8 @@ TEST(LensLooks, CutCatEyes) {
     const double disc = std::numbers::pi * 144;
     double sum = 0;
     EXPECT_NEAR(lit({80, 60}, {.cat_eye = 1}, sum), disc, 0.05 * disc);
-    // 60 pixels from the axis the second circle is 0.6 away for the lamp's middle, and 12/100 more at the outer rim of its
-    // disc: |a - 0.6 - 0.12 a| <= 1 is a circle of radius 1 / 0.88 around 0.6 / 0.88.
+    // 60 pixels from the axis the second circle is 0.6 away for the lamp's middle, and 12/100 more at the outer rim of
+    // its disc: |a - 0.6 - 0.12 a| <= 1 is a circle of radius 1 / 0.88 around 0.6 / 0.88.
     const double left = common_area(1 / 0.88, 0.6 / 0.88);
     EXPECT_NEAR(lit({140, 60}, {.cat_eye = 1}, sum), 144 * left, 0.05 * disc);
     EXPECT_NEAR(sum, 1000 * light_past_cat_eye(0.6, 0.12), 10);

@@ -79,7 +79,8 @@ TEST(LampDepths, StayWhereSomethingElseMayBeSeen) {
         EXPECT_EQ(settled({picture(scene)}), Moved{});
 }
 
-// Column 11 is a strand that covers half of each pixel of a lamp of 3 x 3; the lamp's first column has the wall's depth.
+// Column 11 is a strand that covers half of each pixel of a lamp of 3 x 3; the lamp's first column has the wall's
+// depth.
 ViewPixel crossed(int x, int y, int strand = 11, int left = 10) {
     const bool shines = x >= left && x < left + 3 && y >= 10 && y < 13;
     if (x == strand) return shining(post, shines ? 250 : 0.5f);

@@ -25,8 +25,8 @@ std::vector<int> frame_numbers(const std::string &range);
 // The value that a command line gives the option; "" if it gives none.
 std::string value_of(const std::string &option, const std::vector<std::string> &words);
 
-// The name with every #, ##, @@, ... %04d and $F4 replaced by the number. A minus before a range in the name is a sign, unless
-// it follows a letter or a digit: shot-1-24#.exr counts from 1, shot.-1-24#.exr from -1.
+// The name with every #, ##, @@, ... %04d and $F4 replaced by the number. A minus before a range in the name is a sign,
+// unless it follows a letter or a digit: shot-1-24#.exr counts from 1, shot.-1-24#.exr from -1.
 std::string file_at(const std::string &name, int number);
 
 // The frames that the words of a command line describe.
