@@ -265,7 +265,7 @@ class OpenedByRows : public Opened {
 protected:
     Ldi ldi = random_ldi({.seed = 4, .width = 20, .height = 150, .opaque_share = 0.2, .depths = 64});
     std::mutex reducing;        // for the variables below: several threads reduce rows
-    int asked = 0;              // number of requests to reduce
+    int asked = 0;              // how often open_ldi() asked
     std::map<int, int> heights; // first row -> number of reduced rows
 
     OpenedLdi open(const ReduceSamples &reduce) {

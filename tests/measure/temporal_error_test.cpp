@@ -47,7 +47,7 @@ TEST(TemporalError, ChangesAreComparedNotValues) {
         other.add(slower, &reference);
     }
     EXPECT_GT(*same.figures().psnr_change, 120);
-    // One of two pixels changes by 0.05 less than expected in each step.
+    // One of two pixels changes by 0.05 less than the reference in each step.
     EXPECT_NEAR(*other.figures().psnr_change, -10 * std::log10(0.05 * 0.05 / 2), 1e-3);
     EXPECT_LT(other.figures().reference->largest, 1e-6);
 }

@@ -31,7 +31,7 @@ TwoPlanes card_up_to(double right) {
     return scene;
 }
 
-// A camera sees the card's edge at pixel centres, half a pixel apart here.
+// Cameras with half a pixel of parallax between them at the card. Each sees the card's edge at its pixel centres.
 const std::vector<Imath::V2d> cameras{{0, 0}, {0.01, 0}, {0.02, 0}, {0.03, 0}, {0.04, 0}};
 
 TEST(VisibilityVote, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {

@@ -16,7 +16,7 @@ namespace sparselens {
 
 namespace {
 
-// How many results are kept: a page uses the first, and tries others on the way to it.
+// How many proxies or holdouts are kept: a page settles on one, and tries others on the way to it.
 constexpr std::size_t most_small = 2;
 
 constexpr const char *shown_channels = "rgba";

@@ -22,7 +22,7 @@ constexpr double lamp_coc = 280; // eight pixels in a group
 const ThinLens lens{.radius = 2.4, .focal_px = 640, .focus = 5};
 const Imath::Box2i box({0, 0}, {size - 1, size - 1});
 
-// A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it at about one CoC.
+// A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it with CoCs around a given one.
 struct LampBehindBoards : BlockedLdi {
     BlockedSamples solids;
     BlockFootprints footprints, solid_footprints;

@@ -52,7 +52,7 @@ TEST(CameraMetadata, EverythingComesBack) {
     EXPECT_EQ(read.pixel_filter, full_camera().pixel_filter);
 }
 
-// The picture has pixels, even if the lens was resolved for sub-pixels.
+// A picture's header does not mention sub-pixels, even if its camera has them.
 TEST(CameraMetadata, APictureHasNoSubpixels) {
     Imf::Header header;
     write_camera(header, full_camera());
