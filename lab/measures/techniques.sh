@@ -25,7 +25,7 @@ for scene in yard pelt; do
     scenes+=($scene)
 done
 
-figures() { # for each scene, also the fine ones, one line
+figures() { # WARP_OPTIONS GATHER_OPTIONS: one line for each scene, also the fine ones
     local scene quality
     for scene in "${scenes[@]}" "${fine[@]}"; do
         quality="--quality final"

@@ -39,7 +39,7 @@ camera["others"] = [o for o in camera.get("others", []) if o["file"] != file] + 
 json.dump(camera, open("camera.json", "w"), indent=1)
 END
 }
-gather() { # writes gathered.exr at the size of the rays
+gather() { # VIEWS...: writes gathered.exr at the size of the rays
     ldi-warp "$@" -o views.ldi.exr && dof-gather views.ldi.exr "${fine[@]}" -o gathered.exr
 }
 

@@ -157,7 +157,7 @@ if len(sys.argv) > 3:  # a faster variant, if a suitable LLVM is installed
 path = {"type": "path", "max_depth": 4}
 plain = mitsuba.load_dict(path)
 guided, guides_alone = guides_of(path), guides_of({"type": "path", "max_depth": 1})
-for lens, guides in (False, None), (False, "warm"), (True, None), (True, "warm"):  # to compile the kernels
+for lens, guides in (False, None), (False, "warm"), (True, None), (True, "warm"):  # compiles, if the variant does
     picture("warm", "up.exr", 1, 1, lens=lens, guides=guides)
 for name, place in places.items():  # noise-free albedo and normals of a pinhole
     picture("clean", name, 64, 77, place, guides="{}", alone=True)

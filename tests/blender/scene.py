@@ -1,8 +1,7 @@
 """A small scene for the tests of share/blender, and the pictures for comparison.
 
     blender -b -P scene.py -- CYCLES|BLENDER_EEVEE WIDTHxHEIGHT save FILE.blend
-    blender -b FILE.blend -P scene.py -- CYCLES WIDTHxHEIGHT truth SAMPLES OUT.exr        the camera's own depth of
-    field
+    blender -b FILE.blend -P scene.py -- CYCLES WIDTHxHEIGHT truth SAMPLES OUT.exr        the camera's own depth of field
     blender -b FILE.blend -P scene.py -- ENGINE WIDTHxHEIGHT defocus VIEW.exr DEPTH.exr OUT_PREFIX FSTOP ...
 """
 

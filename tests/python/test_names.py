@@ -17,7 +17,7 @@ def soft():
 
 
 def channels_in(path):
-    """The channel names in the order of the file's list."""
+    """The channels among PLAIN and NUKE that the file's list has."""
     listed = path.read_bytes().split(b"channels\0chlist\0")[1].split(b"compression\0")[0]
     return [name for name in PLAIN + NUKE if b"\0" + name.encode() + b"\0" in listed]
 

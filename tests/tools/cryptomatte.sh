@@ -12,7 +12,7 @@ oiiotool left.exr --pattern constant:color=0,1,0,1,6,1.5,1,0,0 24x16 9 --chnames
 oiiotool plain.exr --attrib cryptomatte/ab12cd3/name things --attrib cryptomatte/ab12cd3/hash MurmurHash3_32 \
     --attrib cryptomatte/ab12cd3/conversion uint32_to_float32 --attrib cryptomatte/ab12cd3/manifest '{"a":"7f000000"}' -o view.exr
 
-# values FILE CHANNEL: the different values of a channel of a flat picture.
+# ids FILE: the different values of the id channels of a flat picture.
 values() { oiiotool "$1" --ch "$2" -o values.exr && oiiotool --dumpdata values.exr; }
 ids() { values "$1" things00.R,things00.B | sed -nE 's/^ *Pixel [^:]*: *//p' | tr -s ' ' '\n' | sed '/^$/d' | sort -u | xargs; }
 expected=$(ids view.exr)

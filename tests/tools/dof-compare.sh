@@ -132,7 +132,7 @@ exits 0 "$compare" a.exr b.exr --regions ldi.exr "${lens[@]}"
 head -1 stdout | grep -Eq 'all +in_focus +blurred +silhouettes' || fail "no columns: $(head -1 stdout)"
 
 # Each lens option changes the regions.
-changes() { # with these options a region has this many pixels
+changes() { # PIXELS REGION OPTIONS...: with these options a region has this many pixels
     regions ldi.exr "${@:3}"
     is pixels "$1" "$2"
 }

@@ -122,7 +122,7 @@ exits 0 "${pull[@]}" -v
 if grep -q 'up to date' stderr; then fail "without -u frames are left out"; fi
 
 # -u redoes files that another command made, by the output's history; if there is none, it says so, once.
-done_by() { # this many frames are made again
+done_by() { # FRAMES COMMAND...: this many frames are made again
     exits 0 "${@:2}" -u -v
     [ "$((4 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: ${*:2} ($(cat stderr))"
 }
@@ -179,7 +179,7 @@ exits 0 "$bin/ldi-plan" %04d/center.%04d.exr -o plan.#.json --frames 10-11
 [ "$(count 'plan.001?.json')" -eq 2 ] || fail "plans of a sequence: $(ls)"
 
 # Every engine's spelling of a range, including negative frames, in --frames and in names.
-frames() { # this many pictures, with those numbers
+frames() { # "NUMBERS" COMMAND...: one picture for each number, with that number
     exits 0 "${@:2}"
     [ "$(ls spelt)" = "$(printf '%s.exr\n' $1 | sort)" ] || fail "not $1: ${*:2} ($(ls spelt))"
     rm -r spelt
@@ -233,7 +233,7 @@ exits 0 "$gather" ldi.exr -o two.exr
 same one.exr two.exr "a name with a #"
 
 # Progress for farms: over all frames, increasing, each percent once, to the end; nothing by default.
-progress() { # only lines of the pattern on stderr; its group is the percentage
+progress() { # FORMAT PATTERN COMMAND...: only lines of the pattern on stderr; its group is the percentage
     local format=$1 pattern=$2
     shift 2
     exits 0 "$@" --progress "$format"

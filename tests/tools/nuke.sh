@@ -5,7 +5,7 @@
 gather=$bin/dof-gather warp=$bin/ldi-warp cluster=$bin/ldi-cluster
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 6)
 same() { picture same "$@" >found 2>&1 || fail "$1 and $2 differ ($(cat found))"; }
-has_channels() { # these and no others
+has_channels() { # FILE NAMES: these and no others
     picture edit "$1" listed.exr channels="$2" || fail "$1 lacks one of $2"
     picture same "$1" listed.exr >found || fail "$1 has other channels than $2 ($(cat found))"
 }

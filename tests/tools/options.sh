@@ -91,7 +91,7 @@ done
 
 # --- All options of all tools ---
 
-bash_words() { # the completions for the last word
+bash_words() { # TOOL WORDS...: the completions for the last word
     bash -c '. "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; echo "${COMPREPLY[*]}"' - "$folder/$1" "$@"
 }
 

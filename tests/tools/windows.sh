@@ -71,7 +71,7 @@ exits 0 "$bin/dof-gather" element.exr -o sharp.exr "${focal[@]}" --lens-radius 0
 expect_window sharp.exr dataWindow '(40 30) - (51 41)'
 exits 0 "$bin/dof-gather" element.exr -o sharp.exr --lens-radius 0
 expect_window sharp.exr dataWindow '(40 30) - (51 41)'
-exits 0 "$bin/dof-gather" element.exr -o grown.exr "${focal[@]}" --lens-radius 5 --focus-distance 4 # CoC 174 px
+exits 0 "$bin/dof-gather" element.exr -o grown.exr "${focal[@]}" --lens-radius 5 --focus-distance 4 # CoC 174 px: all of the display window
 expect_window grown.exr dataWindow '(0 0) - (99 79)'
 for method in selective scatter; do
     exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --method $method
