@@ -12,7 +12,7 @@ struct DeviceReport {
     std::size_t on_device = 0;
     std::size_t uploaded = 0;                       // bytes
     std::map<std::string, std::size_t> on_cpu = {}; // work left to the CPU, by its reason in a few words
-    std::string failure = {}; // not empty: how the device failed; the CPU did the rest
+    std::string failure = {};                       // not empty: how the device failed; the CPU did the rest
 };
 
 } // namespace sparselens

@@ -60,7 +60,7 @@ private:
 
     Windows windows_;
     std::vector<Channel> channels_;
-    std::vector<std::uint64_t> rows_; // the first sample of each row so far, then the end of the last row
+    std::vector<std::uint64_t> rows_;   // the first sample of each row so far, then the end of the last row
     std::vector<std::uint32_t> in_row_; // the first sample of each pixel, counted from its row's first
     std::vector<bool> present_;         // [array]
     std::vector<Piece> pieces_;

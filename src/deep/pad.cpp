@@ -40,8 +40,7 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLoo
             const Imath::V2d whole(std::ceil(reach.x) + 1, std::ceil(reach.y) + 1); // pixels that it touches
             const Imath::V2d middle(std::floor(box.center().x), std::floor(box.center().y));
             reached.extendBy(Imath::Box2d(middle - whole, middle + whole));
-            reached.extendBy(
-                Imath::Box2d(own - whole, own + whole)); // the light before it is magnified
+            reached.extendBy(Imath::Box2d(own - whole, own + whole)); // the light before it is magnified
         }
     }
     Imath::Box2i box;

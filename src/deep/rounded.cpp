@@ -15,8 +15,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr float finest_px =
-    1.0f / 64; // the largest change of a depth or an offset, and the step of offsets
+constexpr float finest_px = 1.0f / 64; // the largest change of a depth or an offset, and the step of offsets
 constexpr int fraction_bits = std::numeric_limits<float>::digits - 1;
 constexpr int colour_bits = 8, weight_bits = 4; // kept bits of the fraction: off by half of the last at most
 

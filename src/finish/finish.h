@@ -22,7 +22,7 @@ struct LayerToFinish {
     Colours gathered;
     Halves rays;
     std::array<double, 2> samples{1, 1}; // per pixel, > 0: of each render
-    std::vector<Halves> given = {}; // for each render: its denoised version, or the same picture twice
+    std::vector<Halves> given = {};      // for each render: its denoised version, or the same picture twice
 };
 
 struct FinishedLayer {

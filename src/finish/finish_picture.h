@@ -39,8 +39,7 @@ public:
 private:
     Windows windows_;
     std::vector<Channel> channels_;
-    std::array<std::vector<Values>, 2>
-        sums_; // by channel of the gathered picture; empty: not finished
+    std::array<std::vector<Values>, 2> sums_; // by channel of the gathered picture; empty: not finished
     std::vector<bool> has_;
     std::array<double, 2> samples_{0, 0};
     std::size_t missing_ = 0;

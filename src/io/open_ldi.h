@@ -28,10 +28,9 @@ struct OpenedLdi {
     std::string name; // of the file, for messages
     Ldi ldi;          // tidy
     Imf::Header header;
-    Camera camera;     // of the header, overridden by the user's values
-    InvalidValues bad; // what was repaired
-    std::size_t invisible =
-        0; // samples of the file that tidy() removed: they show nothing, or were merged
+    Camera camera;             // of the header, overridden by the user's values
+    InvalidValues bad;         // what was repaired
+    std::size_t invisible = 0; // samples of the file that tidy() removed: they show nothing, or were merged
     std::size_t samples_read = 0; // tidy ones; more than `ldi` has if they were reduced
     SamplesHeld held = AllSamples{};
     bool deep = true;                          // whether the file is deep; else it is flat with depth

@@ -17,8 +17,8 @@ namespace sparselens {
 
 enum class FlipRange {
     ldr, // values are shown unchanged, in [0, 1]
-    hdr // the worst of several exposures, tone-mapped by a film curve (ACES): from the one at which the
-        // reference's brightest pixel is just not too bright, to the one at which its median is
+    hdr  // the worst of several exposures, tone-mapped by a film curve (ACES): from the one at which the
+         // reference's brightest pixel is just not too bright, to the one at which its median is
 };
 
 // R, G and B (linear, Rec. 709 primaries) of pictures as rgba_over() (image_error.h) returns them, with the same data

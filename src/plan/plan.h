@@ -14,7 +14,7 @@ struct PlanOptions {
     int views = 4;  // the largest number of views
     int margin = 2; // pixels around what the centre view misses; edges are told apart from both sides
     std::optional<double> noise = {}; // standard deviation of a pixel's noise, tone-mapped; empty: measured
-    int across = 1; // pixels of the centre view, across and down, per pixel of the picture
+    int across = 1;                   // pixels of the centre view, across and down, per pixel of the picture
 };
 
 struct PlannedView {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_around = 5, lone = 7; // of the eight pixels around
 constexpr double same_colour = 0.25;             // relative
-constexpr float one_depth = 1.02f; // largest ratio of depths; hair in front of the sky has 1.03 and more
+constexpr float one_depth = 1.02f;     // largest ratio of depths; hair in front of the sky has 1.03 and more
 constexpr std::size_t least_lone = 16; // pixels: a picture with fewer has no speckles
 constexpr std::size_t one_of = 4;      // lone pixels, at least one is a speckle
 

@@ -150,8 +150,7 @@ std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &
     attempt({0, 0}, some);
     std::vector<Imath::V2d> directions{{1, 0}, {0, 1}};
     if (view.position.length() > 0)
-        directions.push_back(
-            Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at a point
+        directions.push_back(Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at a point
     for (const Imath::V2d &direction : directions)
         for (double by = 1; by <= farthest_turned; by += turning_step)
             for (const double way : {by, -by}) attempt(direction * way, some);

@@ -29,10 +29,9 @@ struct PosedPicture {
 };
 
 struct PoseVerdict {
-    double contradiction = 0; // [0, 1], the mean over the pixels that tell
-    std::size_t told = 0;     // the number of these pixels: the centre view sees what they show
-    std::size_t off_depth =
-        0; // the number whose depth contradicts; mirrors and glass mislead colours alone
+    double contradiction = 0;  // [0, 1], the mean over the pixels that tell
+    std::size_t told = 0;      // the number of these pixels: the centre view sees what they show
+    std::size_t off_depth = 0; // the number whose depth contradicts; mirrors and glass mislead colours alone
 };
 
 class PoseEvidence {

@@ -13,8 +13,7 @@ namespace sparselens {
 
 struct EdgeFall {
     std::size_t pixels = 0; // on such edges
-    double stays =
-        0; // median of how far they stay bright: 0 if colours fall with coverage, 1 if they do not
+    double stays = 0; // median of how far they stay bright: 0 if colours fall with coverage, 1 if they do not
 };
 
 EdgeFall fall_at_edges(const FlatPixels &pixels);

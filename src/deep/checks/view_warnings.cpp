@@ -153,8 +153,7 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
         focal_length_px(facts.camera, views[0].samples.windows.display_width()).value_or(0);
     double reach = 0;
     for (const PackedView &view : views) reach = std::max(reach, view.position.length());
-    const std::vector<std::size_t> beyond =
-        views_beyond_lens(views, radius); // their pixels are not tested
+    const std::vector<std::size_t> beyond = views_beyond_lens(views, radius); // their pixels are not tested
     Warnings said;
     std::vector<std::string> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {
