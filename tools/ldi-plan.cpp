@@ -41,6 +41,16 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
                o.top, o.right, o.bottom);
 }
 
+void say(const RayDivision &division, std::FILE *out) {
+    fmt::print(out, "rays per pixel of the picture: {} for {} views{} (samples per pixel of a view: {})\n",
+               division.of_views(), division.views,
+               division.supersample > 1 ? fmt::format(" {} times as large", division.supersample) : "",
+               division.samples);
+    if (division.per_render > 0)
+        fmt::print(out, "... and {} for each of two renders through the lens, for dof-finish\n",
+                   division.per_render);
+}
+
 Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
     std::size_t asked = 0;
     for (const PlannedView &view : plan.views) asked += view.mask.count();
@@ -54,8 +64,8 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
     tell_reading(tool.tell(), options.centre, centre.notes, centre.warnings);
     tell_invalid_values(tool.tell(), options.centre, centre.bad);
-    PlannedViews made =
-        plan_views(centre, options.plan, options.lens, options.supersample, *tool.progress, tool.tell());
+    PlannedViews made = plan_views(centre, options.plan, options.lens, options.supersample, options.rays,
+                                   *tool.progress, tool.tell());
     made.setting.centre = options.centre;
     const auto &[plan, setting, camera] = made;
     write_plan(options.output, plan, setting, options.masks);
@@ -64,7 +74,9 @@ void run(const PlanCommand &options, const ToolContext &tool) {
         write_cameras(options.cameras, cameras_of(plan, camera, setting.lens, windows.display_width()),
                       {options.centre, setting.lens, camera.metres_per_unit});
     write_stats(tool, plan_stats(plan, options.plan.views, windows));
-    summarise(plan, centre.view, options.output == "-" ? stderr : stdout);
+    std::FILE *const out = options.output == "-" ? stderr : stdout;
+    summarise(plan, centre.view, out);
+    if (setting.division) say(*setting.division, out);
 }
 
 } // namespace

@@ -2,11 +2,15 @@
 
 #include "chain/file_notices.h"
 #include "deep/checks/view_warnings.h"
+#include "finish/divide_rays.h"
+
+#include <algorithm>
 
 namespace sparselens {
 
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
-                        std::optional<int> supersample, Progress &progress, const Tell &tell) {
+                        std::optional<int> supersample, std::optional<int> rays, Progress &progress,
+                        const Tell &tell) {
     PlannedViews planned;
     planned.camera = camera_with_options(lens, centre.camera);
     if (supersample) planned.camera.supersample = supersample;
@@ -17,6 +21,9 @@ PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const Len
     tell_warnings(tell, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, planned.camera,
                                                        centre.unpremultiplied}));
     planned.plan = make_plan(centre.view, planned.setting.lens, options, progress);
+    if (rays)
+        planned.setting.division = divide_rays(*rays, int(planned.plan.views.size()) + 1,
+                                               std::max(options.across, planned.plan.supersample));
     return planned;
 }
 

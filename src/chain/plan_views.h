@@ -17,8 +17,9 @@ struct PlannedViews {
     Camera camera; // of the centre view, with the lens and the sub-pixels of the plan
 };
 
-// `lens` and `supersample` override the view's values.
+// `lens` and `supersample` override the view's values. `rays`: all rays of a pixel, to divide (divide_rays.h).
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
-                        std::optional<int> supersample, Progress &progress, const Tell &tell);
+                        std::optional<int> supersample, std::optional<int> rays, Progress &progress,
+                        const Tell &tell);
 
 } // namespace sparselens

@@ -129,6 +129,11 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
           {"right", plan.overscan.right},
           {"bottom", plan.overscan.bottom}}},
         {"views", Json::array()}};
+    if (const auto &rays = setting.division)
+        json["rays"] = {{"views", rays->views},
+                        {"supersample", rays->supersample},
+                        {"samples", rays->samples},
+                        {"per_render", rays->per_render}};
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const std::string name = fmt::format("view_{}", k);
         Json view = json_of(plan.views[k], name, lens);

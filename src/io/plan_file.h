@@ -4,6 +4,7 @@
 //    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
 //    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
 //    "edges": S, "supersample": 1 | 2,
+//    "rays": {"views": N, "supersample": N, "samples": N, "per_render": N}, with a budget to divide (divide_rays.h),
 //    "overscan": {"left": PX, "top": PX, "right": PX, "bottom": PX},
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
@@ -14,6 +15,7 @@
 // naming the file and the problem.
 #pragma once
 
+#include "../finish/divide_rays.h"
 #include "../plan/plan.h"
 
 #include <optional>
@@ -27,6 +29,7 @@ struct PlanSetting {
     ThinLens lens;
     int margin;
     int across = 1; // pixels of the centre view, across and down, per pixel of the picture
+    std::optional<RayDivision> division = {}; // of a budget of rays
 };
 
 // `masks` is a folder, created if missing, or empty for no masks.

@@ -304,6 +304,10 @@ class Plan:
     def supersample(self) -> int:
         """How many times larger to render the views with as many rays: 2 if depth has many edges, else 1."""
     @property
+    def rays(self) -> Optional[dict[str, int]]:
+        """How plan() divided its rays: views, how many; supersample, times the size at which to render them; samples, of
+        each of their pixels; per_render, rays of each of two renders through the lens, 0 if views take all."""
+    @property
     def noise_db(self) -> float:
         """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf if there is none."""
     @property
@@ -612,6 +616,7 @@ def plan(
     margin: int = 2,
     noise: Optional[float] = None,
     supersample: Optional[int] = None,
+    rays: Optional[int] = None,
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
@@ -627,6 +632,7 @@ def plan(
     noise: standard deviation of the noise of a tone-mapped pixel (default: measured).
     supersample: this many pixels of the view, across and down, become one pixel of the picture (default: as the view
       says, else 1).
+    rays: all rays per pixel of the picture, to divide between views and renders through the lens (Plan.rays).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the view:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

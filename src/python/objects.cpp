@@ -265,6 +265,15 @@ void bind_plan(py::module_ &module) {
         .def_property_readonly(
             "supersample", [](const PlanObject &o) { return o.plan.supersample; }, doc::Plan::supersample)
         .def_property_readonly(
+            "rays",
+            [](const PlanObject &o) -> py::object {
+                const auto &rays = o.setting.division;
+                if (!rays) return py::none();
+                return py::dict(py::arg("views") = rays->views, py::arg("supersample") = rays->supersample,
+                                py::arg("samples") = rays->samples, py::arg("per_render") = rays->per_render);
+            },
+            doc::Plan::rays)
+        .def_property_readonly(
             "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); },
             doc::Plan::noise_db)
         .def_property_readonly(

@@ -214,11 +214,12 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
     options.noise = keywords.number("noise", at_least_0);
     const auto across = keywords.whole("supersample", 1, most_across);
+    const auto rays = keywords.whole("rays", 1, 1 << 20);
     const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
     return told_job<PlanObject>(progress, [&](Progress &said, const Tell &tell) -> PlanObject {
-        PlannedViews made = plan_views(centre, options, lens, across, said, tell);
+        PlannedViews made = plan_views(centre, options, lens, across, rays, said, tell);
         return {std::move(made.plan), std::move(made.setting)};
     });
 }

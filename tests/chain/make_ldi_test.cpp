@@ -117,8 +117,10 @@ TEST(PlanViews, IsForPixelsOfThePicture) {
     centre.camera.supersample = 2;
     Progress silent;
     Told told;
-    EXPECT_EQ(plan_views(centre, {.views = 0}, lens, {}, silent, told.tell()).setting.across, 2);
-    const PlannedViews planned = plan_views(centre, {.views = 0}, lens, 4, silent, told.tell());
+    EXPECT_EQ(plan_views(centre, {.views = 0}, lens, {}, {}, silent, told.tell()).setting.across, 2);
+    const PlannedViews planned = plan_views(centre, {.views = 0}, lens, 4, 20, silent, told.tell());
+    EXPECT_EQ(planned.setting.division->views, 1); // none is planned
+    EXPECT_EQ(planned.setting.division->per_render, 6);
     EXPECT_EQ(planned.setting.across, 4);
     EXPECT_EQ(planned.camera.supersample, 4);
     EXPECT_EQ(planned.setting.lens.radius, 0.06);

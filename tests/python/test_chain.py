@@ -265,8 +265,14 @@ def test_channels(clustered, tool, tmp_path, channels):
 
 
 def test_plan(views, names, tool, tmp_path):
-    tool("ldi-plan", names[0], "--views", 3, "--margin", 1, "--masks", tmp_path / "tool", "-o", tmp_path / "tool.json")
-    plan = sparselens.plan(views[0], views=3, margin=1)
+    tool("ldi-plan", names[0], "--views", 3, "--margin", 1, "--rays", 320, "--masks", tmp_path / "tool",
+         "-o", tmp_path / "tool.json")
+    plan = sparselens.plan(views[0], views=3, margin=1, rays=320)
+    assert plan.rays["views"] == len(plan.views) + 1
+    assert plan.rays["views"] * plan.rays["samples"] * plan.rays["supersample"] ** 2 + 2 * plan.rays["per_render"] == 320
+    assert sparselens.plan(views[0]).rays is None
+    with pytest.raises(sparselens.UsageError, match="too few"):
+        sparselens.plan(views[0], views=3, rays=1)
     sparselens.write(tmp_path / "python.json", plan, masks=tmp_path / "python")
     by_tool = json.loads((tmp_path / "tool.json").read_text())
     by_python = json.loads((tmp_path / "python.json").read_text().replace("python/", "tool/"))

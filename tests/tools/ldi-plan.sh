@@ -20,7 +20,15 @@ grep -q 'of a full view' stdout || fail "no summary: $(cat stdout)"
 [ "$(ls masks | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "masks: $(ls masks)"
 [ "$(json plan.json 'p["supersample"], p["edges"] > 0.05')" = "2 True" ] || fail "fine views: $(json plan.json 'p["supersample"], p["edges"]')"
 grep -q 'render views 2 times as large with 1/4 of the samples' stdout || fail "no advice of fine views: $(cat stdout)"
+[ "$(json plan.json '"rays" in p')" = False ] || fail "rays that nobody gave"
 "$bin/dof-trace" fence --size 120x68 --views 0 --supersample 2 -o fine
+exits 0 "$plan" full/center.exr --rays 320 -o rays.json
+[ "$(json rays.json 'p["rays"] == {"views": 1 + len(p["views"]), "supersample": 2, "samples": 2,
+    "per_render": 156 - 4 * len(p["views"])}')" = True ] || fail "rays: $(json rays.json 'p["rays"]')"
+grep -q ' for [345] views 2 times as large' stdout && grep -q 'for each of two renders' stdout || fail "rays: $(cat stdout)"
+exits 0 "$plan" full/center.exr --rays 10 -o rays.json
+[ "$(json rays.json 'p["rays"]["supersample"], p["rays"]["per_render"]')" = "1 0" ] || fail "ten rays: $(json rays.json 'p["rays"]')"
+fails_saying 2 'rays: 1 for each pixel are too few for [345] views' "$plan" full/center.exr --rays 1 -o x.json
 exits 0 "$plan" fine/center.exr -o fine.json
 [ "$(json fine.json 'p["supersample"]')" = 1 ] || fail "finer views than fine ones"
 exits 0 "$plan" full/center.exr -o -

@@ -49,12 +49,20 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
                    "Standard deviation of the noise of a tone-mapped pixel (default: measured)")
         ->type_name("SIGMA")
         ->check(number(at_least_0));
+    app.add_option(
+           "--rays", options.rays,
+           "Rays per pixel of the picture in all; say how to divide them between views and two renders "
+           "through the lens, for dof-finish")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_depth_file_option(app, options.depth.picture.depth_file);
     add_examples(app, {{"Plan at most four views, and write a mask for each",
                         "ldi-plan center.exr -o plan.json --masks masks"},
+                       {"Divide 320 rays per pixel between views and renders through the lens",
+                        "ldi-plan center.exr -o plan.json --rays 320"},
                        {"Print where the cameras stand, for a spreadsheet or a script",
                         "ldi-plan center.exr -o plan.json --cameras cameras.csv"}});
 }

@@ -16,6 +16,7 @@ struct PlanCommand {
     DepthOptions depth;
     PlanOptions plan;
     std::optional<int> supersample;
+    std::optional<int> rays;
 };
 
 void add_plan_options(CLI::App &app, PlanCommand &options);
