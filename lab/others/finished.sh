@@ -1,9 +1,9 @@
 #!/bin/bash
 # Makes pictures with dof-finish from five views and rays over the lens, in the folder that lab/denoise filled:
-# finished_N.exr and, with each render denoised, finished_N.denoised.exr, with N rays in total. For a scene of dof-trace
-# half of the rays go into the views, which are twice as fine if they have four rays per pixel; a focus pull is finished
-# as in more.sh, with the views of one frame and rays for each frame. For ready-made pictures (SCENE is -) all views are
-# finished with drt_64.exr and drt_16.exr.
+# finished_N.exr and, with each render denoised, finished_N.denoised.exr, with N rays in total. For a scene of dof-trace the
+# rays are divided as by ldi-plan --rays for five views, and half_N.exr has half of them in the views; views are twice as
+# fine if they have four rays per pixel; a focus pull is finished as in more.sh, with the views of one frame and rays for
+# each frame. For ready-made pictures (SCENE is -) all views are finished with drt_64.exr and drt_16.exr.
 #
 #   finished.sh BIN_DIR SCENE [WIDTHxHEIGHT LIGHT PYTHON]
 #
@@ -63,27 +63,34 @@ if [ "$scene" = - ]; then
     exit
 fi
 
-budgets='20 80 320 1280'
-: >jobs
-for rays in $budgets; do
-    half=$((rays / 2)) samples=$((rays / 10)) fine=()
+# NAME RAYS LENS: rays in total, and how many of them go through the lens
+divisions=('finished 80 40' 'finished 320 280' 'finished 1280 1240' 'half 20 10' 'half 320 160' 'half 1280 640')
+# divided NAME RAYS LENS: sets $name, $rays, $lens, and $samples of each view, which are twice as $fine if that many pay.
+divided() {
+    name=$1 rays=$2 lens=$3 samples=$((($2 - $3) / 5)) fine=()
     [ $samples -lt 4 ] || fine=(--supersample 2)
-    trace --light "$light" --views 4 --spp $samples "${fine[@]}" --halves $half -o half-$rays
-    for guide in albedo normal; do trace --light $guide --views 0 --spp 1 --halves $half -o half-$rays/$guide; done
-    for k in 1 2; do echo "half-$rays/rays_$k.exr half-$rays/albedo/rays_$k.exr half-$rays/normal/rays_$k.exr noisy" >>jobs; done
+}
+: >jobs
+for words in "${divisions[@]}"; do
+    divided $words
+    trace --light "$light" --views 4 --spp $samples "${fine[@]}" --halves $lens -o $name-$rays
+    [ $name = finished ] || continue # half of the rays in the views: for comparison, not denoised
+    for guide in albedo normal; do trace --light $guide --views 0 --spp 1 --halves $lens -o $name-$rays/$guide; done
+    for k in 1 2; do echo "$name-$rays/rays_$k.exr $name-$rays/albedo/rays_$k.exr $name-$rays/normal/rays_$k.exr noisy" >>jobs; done
 done
 "$python/bin/python" "$others/denoise.py"
-for rays in $budgets; do
-    of=half-$rays/camera.json samples=$((rays / 10)) fine=()
-    [ $samples -lt 4 ] || fine=(--supersample 2)
-    timed gather half-$rays/center.exr half-$rays/view_[0-3].exr
+for words in "${divisions[@]}"; do
+    divided $words
+    at=$name-$rays of=$name-$rays/camera.json
+    timed gather $at/center.exr $at/view_[0-3].exr
     cost=("$took" "$(seconds $of center.exr view_)")
-    timed dof-finish gathered.exr half-$rays/rays_{1,2}.exr -o finished_$rays.exr
-    row finished_$rays.exr $rays finished "${cost[@]}" "$took" "$(seconds $of rays_1.exr rays_2.exr)"
-    timed dof-finish gathered.exr half-$rays/rays_{1,2}.exr --denoised half-$rays/rays_1.denoised.exr,half-$rays/rays_2.denoised.exr -o finished_$rays.denoised.exr
-    row finished_$rays.denoised.exr $rays 'finished, denoised' "${cost[@]}" "$took" "$(seconds $of rays_1.denoised rays_2.denoised)"
-    [ $rays -ne 80 ] || mv views.ldi.exr finished_80.ldi.exr
-    mv $of half-$rays/cost.json # its views are not a budget of their own
+    timed dof-finish gathered.exr $at/rays_{1,2}.exr -o ${name}_$rays.exr
+    row ${name}_$rays.exr $rays $name "${cost[@]}" "$took" "$(seconds $of rays_1.exr rays_2.exr)"
+    mv $of $at/cost.json # its views are no budget of their own
+    [ $name = finished ] || continue
+    timed dof-finish gathered.exr $at/rays_{1,2}.exr --denoised $at/rays_1.denoised.exr,$at/rays_2.denoised.exr -o ${name}_$rays.denoised.exr
+    row ${name}_$rays.denoised.exr $rays "finished, denoised" "${cost[@]}" "$took" "$(seconds $at/cost.json rays_1.denoised rays_2.denoised)"
+    [ $at != finished-80 ] || mv views.ldi.exr finished_80.ldi.exr
 done
 
 focus=$(python3 -c 'import json; print(json.load(open("camera.json"))["focus_distance"])')

@@ -8,8 +8,9 @@ scenes = list(dict.fromkeys(row["scene"] for row in rows))
 ways = [("ray tracing", "distributed ray tracing", ""), ("denoised", "denoised ray tracing", ""),
         ("averages", "accumulated lens views", ""), ("five views", "centre + 4", "lens normal"),
         ("five views, denoised", "centre + 4 denoised", "lens normal"), ("five fine views", "centre + 4 at 2x", "lens normal"),
-        ("five fine views, denoised", "centre + 4 denoised at 2x", "lens normal"), ("half in views, finished", "views and rays", "finished"),
-        ("half in views, finished, denoised", "views and rays", "finished, denoised")]
+        ("five fine views, denoised", "centre + 4 denoised at 2x", "lens normal"), ("views and rays, finished", "views and rays", "finished"),
+        ("views and rays, finished, denoised", "views and rays", "finished, denoised"),
+        ("half in views, finished", "views and rays", "half")]
 
 
 def figures(row):
