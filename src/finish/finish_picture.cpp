@@ -38,6 +38,14 @@ Values over(const Image &image, std::size_t channel, const Windows &windows) {
     return values;
 }
 
+// The pixels of the display window for which a render has no value. Its overscan is not part of the picture.
+std::size_t untold(const Values &values, const Windows &windows) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!is_told(values[i]) && windows.display.intersects(windows.pixel(i))) ++count;
+    return count;
+}
+
 void check_window(const Render &render, const Windows &windows) {
     if (render.image.windows.display == windows.display) return;
     throw Error(fmt::format("{}: its picture is {}x{}, the gathered one {}x{}: render both with the same "
@@ -134,8 +142,7 @@ void TwoHalves::add(const Render &render) {
         has_[c] = from != npos;
         if (!has_[c]) continue;
         Values values = over(render.image, from, windows_);
-        missing = std::max(missing,
-                           std::size_t(std::ranges::count_if(values, [](float v) { return !is_told(v); })));
+        missing = std::max(missing, untold(values, windows_));
         Values &sum = sums_[half][c];
         if (sum.empty())
             sum = std::move(values);

@@ -30,7 +30,9 @@ public:
     bool complete() const; // whether both halves have a render
 
     std::array<double, 2> samples() const { return samples_; }
-    std::size_t missing() const { return missing_; } // pixels that stay as gathered, over all renders
+    std::size_t missing() const {
+        return missing_;
+    } // pixels of the display window that stay as gathered, over all renders
     // The planes of a channel of the gathered picture, for both halves. Empty if a render lacks it. The caller takes
     // them.
     std::array<Values, 2> take(std::size_t channel);

@@ -91,6 +91,13 @@ TEST(FinishPicture, CountsThePixelsThatAreMissing) {
     EXPECT_EQ(halves.missing(), 32u * 48u);
 }
 
+// A gathered picture may have overscan that the renders lack: nothing of the picture is missing there.
+TEST(FinishPicture, OverscanIsNotMissing) {
+    TwoHalves halves(crop(picture_of(truth), {{-3, -2}, {66, 49}}));
+    halves.add(render(1));
+    EXPECT_EQ(halves.missing(), 0u);
+}
+
 TEST(FinishPicture, OneRenderIsAnError) {
     EXPECT_THROW(finished(picture_of(truth), {render(1)}), Error);
     EXPECT_THROW(finished(picture_of(truth), {}), Error);
