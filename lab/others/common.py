@@ -39,7 +39,7 @@ def quality(path):
 
 
 def keep_best(name, tries):
-    """Of the tries (what was asked, picture, seconds), keeps the picture nearest to the reference as a row:
+    """Keeps, as a row, the picture nearest to the reference among the tries (what was asked, picture, seconds):
     by_NAME.exr."""
     best = None
     for asked, rgb, seconds in tries:

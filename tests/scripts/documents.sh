@@ -1,4 +1,4 @@
-# Limits of the documents: a number of words that people read, and figures measured by a command. bash documents.sh
+# Limits of what people read: a number of words, how comments begin, and figures measured by a command. bash documents.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 fail() {
@@ -10,6 +10,11 @@ fail() {
 most=16000
 words=$(cat README.md CONTRIBUTING.md docs/*.md | wc -w)
 [ "$words" -le $most ] || fail "README.md, CONTRIBUTING.md and docs have $words words ($most at most)"
+
+# Comments begin with their subject.
+riddles=$(grep -rnE '(//|#|/\*|"""|<!--) ?(Of|Who|Those|Nor|But for) ' --include='*.'{cpp,h,glsl,comp,sh,py,js,css,in,txt,cmake,yaml} \
+    src tools lab tests share cmake CMakeLists.txt || true)
+[ -z "$riddles" ] || fail "a comment does not begin with its subject: $riddles"
 
 # measured PAGE DOCUMENT: the text between the marks of lab/measure.
 measured() { sed -n "/^<!-- measured: $1 /,/^<!-- end -->\$/{/^<!-- /d;p}" "$2"; }

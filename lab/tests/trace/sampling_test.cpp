@@ -7,7 +7,7 @@
 namespace sparselens::lab {
 namespace {
 
-// Of 2^k points, one falls into each of 2^k equal intervals in every dimension, with any scrambling.
+// In every dimension, each of 2^k equal intervals holds one of 2^k points, with any scrambling.
 TEST(Sampling, EveryCoordinateIsStratified) {
     const SobolPoints points(256);
     for (std::size_t dimension = 0; dimension < SobolPoints::dimensions; ++dimension)
