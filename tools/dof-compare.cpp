@@ -14,7 +14,7 @@
 #include "measure/regions.h"
 #include "measure/temporal_error.h"
 #include "measure/temporal_text.h"
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -75,7 +75,7 @@ void add_options(CLI::App &app, Options &options) {
         ->excludes(regions)
         ->excludes(flip)
         ->excludes(flip_map);
-    add_lens_options(app, options.lens);
+    add_parameters(app, lens_parameters(), options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
         if (option->get_group() == "Lens" && !option->check_lname("stereo-view") &&

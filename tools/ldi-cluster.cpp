@@ -6,7 +6,7 @@
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -39,11 +39,11 @@ void add_options(CLI::App &app, Options &options) {
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
     add_recolor_option(app, options.recolor);
-    add_input_colour_options(app, options.colour);
+    add_parameters(app, input_colour_parameters(), options.colour);
     for (const char *of_beauty : {"--colorspace", "--colorconfig"})
         app.get_option(of_beauty)->needs("--recolor");
     add_compression_option(app, options.compression, true);
-    add_lens_options(app, options.lens);
+    add_parameters(app, lens_parameters(), options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_depth_files_option(app, options.depth_files);

@@ -33,8 +33,8 @@ void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
                    "black, within the display window (default: unknown)")
         ->type_name("unknown|transparent")
         ->transform(words(outside));
-    add_lens_options(app, options.lens);
-    add_picture_choice(app, options.views.picture);
+    add_parameters(app, lens_parameters(), options.lens);
+    add_parameters(app, choice_parameters(), options.views.picture);
     add_history_option(app, options.history);
     add_examples(app, {{"Average views that say where their cameras stood",
                         "dof-accumulate view_*.exr --center center.exr -o average.exr"}});

@@ -177,9 +177,8 @@ bool read_size(const std::string &text, TraceOptions &options) {
 void add_trace_options(CLI::App &app, TraceOptions &options) {
     add_picture_options(app, options);
     add_rendering_options(app, options);
-    add_lens_options(app, options.lens);
-    add_look_options(app, options.looks);
-    add_highlight_options(app, options.looks);
+    add_parameters(app, lens_parameters(), options.lens);
+    add_parameters(app, look_parameters(), options.looks);
     add_examples(app,
                  {{"Render the centre view and four from the rim of the lens", "dof-trace fence -o views"},
                   {"Render a reference of 256 rays per pixel, too, in a small picture",

@@ -4,6 +4,7 @@
 #include "chain/channels.h"
 #include "chain/devices.h"
 #include "chain/file_notices.h"
+#include "chain/parameters.h"
 #include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "dof/false_colour.h"
@@ -12,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace sparselens {
@@ -171,16 +172,11 @@ Image false_colours(Show show, const Ldi &ldi, const ThinLens &lens) {
 void check_method(const PictureRequest &request,
                   const std::function<bool(const std::string &parameter)> &is_given) {
     const GatherMethod &method = *request.picture.method;
-    const auto only_with = [&](const std::string &name, std::string parameter) {
-        std::ranges::replace(parameter, '-', '_');
-        if (name != method.name && is_given(parameter))
-            throw UsageError(fmt::format("`{}`: works with `method={}` only", parameter, name));
-    };
-    for (const char *parameter : {"quality", "lens_samples", "layer_tolerance", "holdout", "lens_point",
-                                  "lens", "aperture", "tilt", "cat_eye_darkening", "axial_chromatic_type"})
-        only_with("lens", parameter);
-    for (const LookNumber &look : look_numbers()) only_with("lens", look.name);
-    only_with("selective", "layers");
+    for (const Parameter *row : picture_parameters())
+        if (*row->method != '\0' && row->method != std::string_view(method.name) &&
+            is_given(keyword_of(row->name)))
+            throw UsageError(
+                fmt::format("`{}`: works with `method={}` only", keyword_of(row->name), row->method));
     if (request.device != "cpu" && request.device != "auto" && !method.on_devices)
         throw UsageError(
             fmt::format("`device={}`: works with `method=lens` and `method=selective` only", request.device));

@@ -136,6 +136,40 @@ std::optional<Imath::Box2i> Keywords::box(const char *name) {
     return Imath::Box2i({v[0], v[1]}, {v[2], v[3]});
 }
 
+// The value as text; empty if it is not given.
+std::optional<std::string> Keywords::text_of(const Parameter &row, const char *name) {
+    const auto written = [](const auto &value, const auto &write) {
+        return value ? std::optional<std::string>(write(*value)) : std::nullopt;
+    };
+    const auto whole_text = [](const auto &value) { return fmt::to_string(value); };
+    const auto if_filled = [](std::string text) {
+        return text.empty() ? std::nullopt : std::optional(std::move(text));
+    };
+    switch (row.form) {
+    case ParameterForm::flag: return flag(name) ? std::optional<std::string>("") : std::nullopt;
+    case ParameterForm::whole: return written(whole(name, row.least, row.most), whole_text);
+    case ParameterForm::number: return written(number(name, row.range), whole_text);
+    case ParameterForm::list: return if_filled(list(name));
+    case ParameterForm::file: return if_filled(path(name));
+    case ParameterForm::ldi: return {}; // an object, which the caller takes
+    case ParameterForm::pair:
+        return written(pair(name), [](const Imath::V2d &v) { return fmt::format("{},{}", v.x, v.y); });
+    case ParameterForm::pixel:
+        return written(pixel(name), [](const Imath::V2i &v) { return fmt::format("{},{}", v.x, v.y); });
+    case ParameterForm::box:
+        return written(box(name), [](const Imath::Box2i &v) {
+            return fmt::format("{},{},{},{}", v.min.x, v.min.y, v.max.x, v.max.y);
+        });
+    default: return if_filled(text(name));
+    }
+}
+
+void Keywords::parameter(const Parameter &row, const std::function<bool(const std::string &)> &put) {
+    const std::string name = keyword_of(row.name);
+    const auto text = text_of(row, name.c_str());
+    if (text && !put(*text)) refuse(name.c_str(), row.wanted, *text);
+}
+
 void Keywords::refuse(const char *name, const std::string &wanted, const std::string &found) {
     throw UsageError(fmt::format("{}: must be {}, not {}", name, wanted, found));
 }
@@ -148,40 +182,30 @@ void Keywords::done() const {
         throw py::type_error(fmt::format("{}() has no keyword argument '{}'{}", function_, name,
                                          nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
+    check_together([this](const std::string &name) { return is_given(name); });
 }
 
 LensValues lens_values(Keywords &keywords) {
     LensValues lens;
-    keywords.numbers_of(lens_numbers(), lens);
-    if (lens.fstop && lens.lens_radius)
-        throw UsageError("lens_radius: is given with fstop; give one of the two");
+    keywords.parameters(lens_parameters(), lens);
     return lens;
 }
 
 PictureChoice picture_choice(Keywords &keywords) {
-    return {.stereo_view = keywords.text("stereo_view"),
-            .layer = keywords.text("layer"),
-            .unpremultiplied = keywords.flag("unpremultiplied")};
+    PictureChoice picture;
+    keywords.parameters(choice_parameters(), picture);
+    return picture;
 }
 
 DepthOptions depth_options(Keywords &keywords) {
-    const auto meaning = keywords.word<DepthMeaning>("depth", {{"z", DepthMeaning::planar},
-                                                               {"distance", DepthMeaning::distance},
-                                                               {"inverse", DepthMeaning::inverse},
-                                                               {"negative", DepthMeaning::negative},
-                                                               {"normalized", DepthMeaning::normalized},
-                                                               {"hyperbolic", DepthMeaning::hyperbolic}});
-    PictureChoice picture = picture_choice(keywords);
-    picture.depth = keywords.text("depth_channel");
-    return {.meaning = meaning.value_or(DepthMeaning::planar),
-            .picture = std::move(picture),
-            .near = keywords.number("near", above_0_or_inf),
-            .far = keywords.number("far", above_0_or_inf)};
+    DepthOptions depth{.picture = picture_choice(keywords)};
+    keywords.parameters(depth_parameters(), depth);
+    return depth;
 }
 
 OpenOptions file_options(Keywords &keywords) {
     OpenOptions options{lens_values(keywords), depth_options(keywords)};
-    options.depth.picture.depth_file = keywords.path("depth_file");
+    keywords.parameters(depth_file_parameters(), options.depth.picture);
     return options;
 }
 

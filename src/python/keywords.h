@@ -4,12 +4,12 @@
 // wrong value), which name the keyword.
 #pragma once
 
-#include "io/open_options.h"
+#include "chain/parameters.h"
 
 #include <Imath/ImathBox.h>
 #include <pybind11/pybind11.h>
 
-#include <algorithm>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -28,14 +28,11 @@ public:
     py::object take(const char *name); // None if it is not given
     bool flag(const char *name);       // False if it is not given
     std::optional<double> number(const char *name, NumberRange range = above_0);
-    // Takes the numbers of a table.
+    // Takes the parameters of a table. Values that are not given stay as they are.
     template <typename Values>
-    void numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
-        for (const NumberParameter<Values> &of : table) {
-            std::string name = of.name;
-            std::ranges::replace(name, '-', '_');
-            values.*of.value = number(name.c_str(), of.range);
-        }
+    void parameters(ParameterRows<Values> rows, Values &values) {
+        for (const ParameterOf<Values> &row : rows)
+            parameter(row, [&](const std::string &text) { return row.put(values, text); });
     }
     std::optional<int> whole(const char *name, int least, int most);
     std::string text(const char *name); // empty if it is not given
@@ -64,27 +61,24 @@ public:
     }
 
     bool is_given(const std::string &name) const; // for keywords that were taken
-    void done() const;                            // throws TypeError if a keyword was given but not taken
+    // Throws TypeError if a keyword was given but not taken, and as check_together() does.
+    void done() const;
 
     [[noreturn]] static void refuse(const char *name, const std::string &wanted, const std::string &found);
 
 private:
+    void parameter(const Parameter &row, const std::function<bool(const std::string &)> &put);
+    std::optional<std::string> text_of(const Parameter &row, const char *name);
+
     std::string function_;
     py::dict left_;
     std::vector<std::string> known_, given_; // all that were taken, and those of them that were given
 };
 
-// focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.
 LensValues lens_values(Keywords &keywords);
-
-// stereo_view, layer, unpremultiplied.
 PictureChoice picture_choice(Keywords &keywords);
-
-// depth, near, far, depth_channel, stereo_view, layer, unpremultiplied.
-DepthOptions depth_options(Keywords &keywords);
-
-// All of the above, and depth_file: how a file is opened.
-OpenOptions file_options(Keywords &keywords);
+DepthOptions depth_options(Keywords &keywords); // with picture_choice()
+OpenOptions file_options(Keywords &keywords);   // all of the above, and depth_file: how a file is opened
 
 [[noreturn]] void wrong_type(const char *name, const char *wanted, const py::handle &found);
 

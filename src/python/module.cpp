@@ -5,6 +5,7 @@
 #include "python/told.h"
 
 #include <ImfThreading.h>
+#include <pybind11/stl.h>
 #include <sparselens_docs.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -55,6 +56,23 @@ void set_limits(const py::kwargs &given) {
         set_memory_limit(*bytes < 1 ? std::optional<std::uint64_t>() : std::uint64_t(std::min(*bytes, most)));
 }
 
+// The table of parameters, with which a test compares the stubs: name, the function that takes it, group, words, and
+// what a value must be.
+py::list parameters() {
+    py::list rows;
+    for (const Parameter *row : picture_parameters()) {
+        constexpr const char *calls[] = {"open_ldi", "gather", "write", ""};
+        py::dict facts;
+        facts["name"] = keyword_of(row->name);
+        facts["call"] = calls[int(row->python)];
+        facts["group"] = row->group;
+        facts["words"] = row->words;
+        facts["wanted"] = row->wanted;
+        rows.append(facts);
+    }
+    return rows;
+}
+
 // Before version 2.12, pybind11 reads wrong values from arrays of numpy 2. Without numpy nothing is refused here; the
 // functions that need it say so.
 void refuse_unknown_numpy() {
@@ -86,6 +104,7 @@ PYBIND11_MODULE(_sparselens, module) {
     py::register_exception_translator(&translate);
     bind_objects(module);
     bind_verbs(module);
+    module.def("_parameters", &parameters);
     module.def("set_limits", &set_limits, doc::set_limits);
     py::module_::import("atexit").attr("register")(py::cpp_function([] {
         gather_device().release();

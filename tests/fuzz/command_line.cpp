@@ -3,7 +3,7 @@
 #include "fuzz/fuzz.h"
 #include "harness/commands/frames.h"
 #include "harness/tool.h"
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 #include "options/picture_options.h"
 #include "options/warp_options.h"
 
@@ -17,25 +17,22 @@ using namespace sparselens;
 namespace {
 
 struct Options {
-    LensValues lens;
-    DepthOptions depth;
+    PictureRequest picture;
     ViewList views;
-    const GatherMethod *method = nullptr;
-    std::optional<Imath::V2i> pixel;
     std::optional<PixelType> type;
-    std::string channels;
 };
 
 void use(const Options &options) {
-    const Camera camera = camera_with_options(options.lens, {});
+    const Camera camera = camera_with_options(options.picture.lens, {});
     fuzz::may_fail([&] { resolve_lens(camera, windows_of_size(64, 48)); });
     for (const auto &[offset, file] : options.views.placed)
         fuzz::may_fail([&, &text = offset] { view_offset(text); });
     Ldi ldi;
     ldi.channels = rgba_channels();
     ldi.values.resize(4);
-    fuzz::may_fail([&] { keep_channels(ldi, options.channels); });
-    fuzz::may_fail([&] { chosen_channels(Image(windows_of_size(2, 2), rgba_channels()), options.channels); });
+    fuzz::may_fail([&] { keep_channels(ldi, options.picture.channels); });
+    fuzz::may_fail(
+        [&] { chosen_channels(Image(windows_of_size(2, 2), rgba_channels()), options.picture.channels); });
 }
 
 } // namespace
@@ -55,12 +52,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     Options options;
     CLI::App app("Fuzzed", "fuzz");
     add_view_list(app, options.views);
-    add_lens_options(app, options.lens);
-    add_depth_options(app, options.depth);
-    add_method_option(app, options.method);
-    add_pixel_option(app, "--focus-pixel", options.pixel, "");
+    add_parameters(app, gather_parameters(), options.picture);
+    add_parameters(app, lens_parameters(), options.picture.lens);
+    add_parameters(app, look_parameters(), options.picture.looks);
+    add_parameters(app, window_parameters(), options.picture.windows);
+    add_depth_options(app, options.picture.depth);
     add_type_option(app, options.type);
-    app.add_option("--channels", options.channels, "");
     const int code =
         run_tool(app, int(arguments.size()), arguments.data(), [&](const ToolContext &) { use(options); });
     if (code < 0 || code > 2) __builtin_trap();

@@ -2,6 +2,7 @@
 import ast
 import inspect
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -63,6 +64,26 @@ def test_help(name):
     named = list(inspect.signature(function).parameters)
     assert named == stub_of(name)
     assert len(function.__doc__) > 60
+
+
+def test_stubs_have_the_table():
+    """The keywords, words and ranges of the stubs are those of the table of parameters."""
+    table = sparselens._sparselens._parameters()
+    of = {call: {row["name"] for row in table if row["call"] == call} for call in ("open_ldi", "gather", "write")}
+    lens = {row["name"] for row in table if row["call"] == "gather" and row["group"] == "Lens"}
+    assert set(stub_of("gather")) == of["gather"] | {"ldi", "progress"}
+    assert set(stub_of("open_ldi")) == of["open_ldi"] | lens | {"path"}
+    assert of["write"] <= set(stub_of("write"))
+    for name in ("open_view", "warp", "cluster", "show", "plan", "compare"):
+        assert lens <= set(stub_of(name)), name
+    text, rows = (STUBS / "__init__.pyi").read_text(), {row["name"]: row for row in table}
+    for name, row in rows.items():
+        for words in re.findall(rf" {name}: (?:Optional\[)?Literal\[([^]]*)\]", text):
+            assert re.findall('"([^"]*)"', words) == row["words"], name
+    ranges = [(name, range) for name, range in re.findall(r"(\w+) \((-?[\d.]+ to -?[\d.]+)", text) if name in rows]
+    assert len(ranges) > 5
+    for name, range in ranges:
+        assert rows[name]["wanted"].endswith("from " + range), name
 
 
 LENS = dict(focal_length=36, sensor_width=36, lens_radius=0.1, focus_distance=3)

@@ -3,6 +3,8 @@ import concurrent.futures
 import contextlib
 import json
 import os
+import pathlib
+import re
 import resource
 import signal
 import socket
@@ -16,6 +18,15 @@ from served import apart, served
 
 program, ldi, reference = sys.argv[1] + "/dof-view", sys.argv[2], sys.argv[3]
 ANSWERED = "/facts", "/picture", "/pieces", "/reference", "/rendered", "/objects", "/samples", "/progress", "/commands", "/save"
+
+
+def knows_the_options(server):
+    """The page sets only options that the server's table has."""
+    for script in (pathlib.Path(__file__).parents[2] / "tools/viewing/page").glob("*.js"):
+        text = script.read_text()
+        options = re.findall(r"settings\.(\w+)|settings\['([^']*)'|\b(?:set|typed|baked)\('([^']*)'|'([a-z]+(?:-[a-z]+)+)'", text)
+        for option in {name for found in options for name in found if name} - {"f-number", "dof-gather"}:
+            server.said("/commands", settings={option: ""})
 
 
 def answers(server):
@@ -240,6 +251,7 @@ def knows_frames(folder):
 
 def main():
     with served(program, ldi, "--reference", reference) as server:
+        knows_the_options(server)
         answers(server)
         refuses(server)
         listens_here_alone(server)

@@ -2,7 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
     app.add_option("--goal", options.goal, "Also say how many rays a picture of this many dB takes")
         ->type_name("DB")
         ->check(number(above_0));
-    add_output_colour_options(app, options.colour);
+    add_parameters(app, output_colour_parameters(), options.colour);
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
     add_history_option(app, options.history);

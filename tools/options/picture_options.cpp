@@ -2,67 +2,22 @@
 
 #include "base/error.h"
 #include "gpu/device_list.h"
+#include "options/parameter_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <vector>
 
 namespace sparselens {
 
-std::optional<Imath::V2d> parse_pair(const std::string &text) {
-    Imath::V2d pair(0, 0);
-    const std::size_t comma = text.find(',');
-    if (comma == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, comma), pair.x) ||
-        !CLI::detail::lexical_cast(text.substr(comma + 1), pair.y))
-        return {};
-    if (!std::isfinite(pair.x) || !std::isfinite(pair.y)) return {};
-    return pair;
-}
-
 Imath::V2d view_offset(const std::string &text) {
-    const auto offset = parse_pair(text);
-    if (!offset) throw UsageError(fmt::format("--view: must be X,Y (e.g. 0.05,0), not '{}'", text));
-    return *offset;
-}
-
-void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,
-                      const std::string &help) {
-    const auto read = [&pixel, name](const std::string &text) {
-        const auto pair = parse_pair(text);
-        constexpr double most = 1 << 30;
-        const bool whole = pair && std::trunc(pair->x) == pair->x && std::trunc(pair->y) == pair->y;
-        if (!whole || std::abs(pair->x) > most || std::abs(pair->y) > most)
-            throw CLI::ValidationError(
-                name, fmt::format("must be X,Y in whole pixels (e.g. 320,180), not '{}'", text));
-        pixel = Imath::V2i(*pair);
-    };
-    app.add_option_function<std::string>(name, read, help)->type_name("X,Y");
-}
-
-void add_method_option(CLI::App &app, const GatherMethod *&method) {
-    std::vector<std::string> names, what;
-    for (const GatherMethod &m : gather_methods()) {
-        names.emplace_back(m.name);
-        what.push_back(fmt::format("{}: {}", m.name, m.what));
-    }
-    const auto read = [&method, names](const std::string &text) {
-        for (const GatherMethod &m : gather_methods())
-            if (text == m.name) {
-                method = &m;
-                return;
-            }
-        throw CLI::ValidationError("--method",
-                                   fmt::format("must be one of {}, not '{}'", fmt::join(names, ", "), text));
-    };
-    app.add_option_function<std::string>(
-           "--method", read,
-           fmt::format("Gather method. {} (default: {})", fmt::join(what, "; "), names.front()))
-        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+    Imath::V2d offset;
+    if (!read_numbers(text, {&offset.x, 2}) || !std::isfinite(offset.x) || !std::isfinite(offset.y))
+        throw UsageError(fmt::format("--view: must be X,Y (e.g. 0.05,0), not '{}'", text));
+    return offset;
 }
 
 void add_recolor_option(CLI::App &app, std::string &path) {
@@ -135,38 +90,6 @@ void add_device_option(CLI::App &app, std::string &device, const std::string &wh
         ->group("Device")
         ->envname("SPARSELENS_DEVICE")
         ->each(list);
-}
-
-void add_input_colour_options(CLI::App &app, ColourOptions &options) {
-    app.add_option("--colorconfig", options.config,
-                   "OpenColorIO configuration (default: $OCIO, else the built-in one)")
-        ->type_name("FILE")
-        ->group("Colour");
-    app.add_option("--colorspace", options.input_space,
-                   "Colour space of the input (default: by its chromaticities or colorInteropID, else the "
-                   "file rules of "
-                   "the configuration)")
-        ->type_name("SPACE")
-        ->group("Colour");
-}
-
-void add_output_colour_options(CLI::App &app, ColourOptions &options) {
-    CLI::Option *space =
-        app.add_option(
-               "--output-colorspace", options.output_space,
-               "Colour space of the output (default: that of the input for EXR, else that of the display)")
-            ->type_name("SPACE")
-            ->group("Colour");
-    app.add_option("--display", options.display,
-                   "Display for PNG, JPEG and TIFF (default: that of the configuration)")
-        ->type_name("DISPLAY")
-        ->group("Colour")
-        ->excludes(space);
-    app.add_option("--view-transform", options.view,
-                   "View transform of the display (default: that of the display)")
-        ->type_name("VIEW")
-        ->group("Colour")
-        ->excludes(space);
 }
 
 } // namespace sparselens

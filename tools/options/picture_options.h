@@ -12,18 +12,8 @@
 
 namespace sparselens {
 
-// Parses "X,Y", two finite numbers; nothing for other text.
-std::optional<Imath::V2d> parse_pair(const std::string &text);
-
 // Parses the X,Y of --view: scene units, x right, y up. Throws UsageError if the text is not X,Y.
 Imath::V2d view_offset(const std::string &text);
-
-// Adds the option `name` X,Y: a pixel in EXR coordinates, y down.
-void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,
-                      const std::string &help);
-
-// Adds --method, with the names of the table of methods.
-void add_method_option(CLI::App &app, const GatherMethod *&method);
 
 // Adds --compression, with the names that flat or deep files allow; if empty, output_compression() decides.
 using AskedCompression = std::optional<Imf::Compression>;
@@ -49,9 +39,5 @@ void add_device_option(CLI::App &app, std::string &device, const std::string &wh
 
 // For Job::keeps: a device, unless the word means none.
 inline std::string kept_device(const std::string &word) { return word == "cpu" ? "" : "a device"; }
-
-// Adds --colorconfig and --colorspace; the second function adds --output-colorspace, --display and --view-transform.
-void add_input_colour_options(CLI::App &app, ColourOptions &options);
-void add_output_colour_options(CLI::App &app, ColourOptions &options); // for the output
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "options/plan_options.h"
 
 #include "harness/examples.h"
+#include "options/parameter_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -55,10 +56,10 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
            "through the lens, for dof-finish")
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20));
-    add_lens_options(app, options.lens);
+    add_parameters(app, lens_parameters(), options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
-    add_depth_file_option(app, options.depth.picture.depth_file);
+    add_parameters(app, depth_file_parameters(), options.depth.picture);
     add_examples(app, {{"Plan at most four views, and write a mask for each",
                         "ldi-plan center.exr -o plan.json --masks masks"},
                        {"Divide 320 rays per pixel between views and renders through the lens",

@@ -3,7 +3,7 @@
 
 #include "chain/plan_views.h"
 #include "harness/commands/cli.h"
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 
 #include <optional>
 #include <string>

@@ -70,11 +70,11 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->transform(words(precisions));
     add_device_option(app, options.device, "Device that warps");
     add_compression_option(app, options.compression, true);
-    add_lens_options(app, options.lens);
+    add_parameters(app, lens_parameters(), options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_depth_files_option(app, options.depth_files);
-    add_input_colour_options(app, options.colour.emplace());
+    add_parameters(app, input_colour_parameters(), options.colour.emplace());
     add_history_option(app, options.history);
     add_examples(
         app, {{"Warp views with their camera in the metadata", "ldi-warp center.exr view_*.exr -o ldi.exr"},

@@ -1,6 +1,8 @@
 #include "viewing/view_facts.h"
 
 #include "base/matte.h"
+#include "chain/parameters.h"
+#include "harness/one_line.h"
 #include "lens/sharp_range.h"
 
 #include <fmt/format.h>
@@ -75,6 +77,35 @@ Json lens_facts(const ShotPicture &picture) {
     if (picture.camera.fstop) facts["fstop"] = json_number(*picture.camera.fstop);
     if (picture.camera.metres_per_unit) facts["metres_per_unit"] = *picture.camera.metres_per_unit;
     return facts;
+}
+
+Json look_controls(const Presets &lenses) {
+    Json all = Json::array();
+    for (const Parameter *row : picture_parameters()) {
+        const PageControl &control = row->control;
+        const bool of_file = row->form == ParameterForm::file;
+        if (*control.label == '\0' || (of_file && lenses.empty())) continue;
+        Json look{{"name", row->name},
+                  {"label", control.label},
+                  {"help", with_options(row->help)},
+                  {"keyable", row->keyable}};
+        if (row->form == ParameterForm::number) {
+            look.update({{"control", "number"},
+                         {"low", control.low},
+                         {"high", control.high},
+                         {"usual", control.usual},
+                         {"whole_from", control.whole_from}});
+        } else if (row->form == ParameterForm::pair) {
+            look["control"] = "pair";
+        } else {
+            look["control"] = "choice";
+            look["words"] = row->form == ParameterForm::flag ? std::vector<std::string>{"on"} : row->words;
+            if (of_file)
+                for (const auto &lens : lenses) look["words"].push_back(lens.first);
+        }
+        all.push_back(std::move(look));
+    }
+    return all;
 }
 
 ObjectMap object_map(const ShotFrame &frame) {

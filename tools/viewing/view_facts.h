@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewing/shot.h"
+#include "viewing/view_words.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,10 @@ namespace sparselens {
 
 // Focus, f-number, sharp range (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
 nlohmann::json lens_facts(const ShotPicture &picture);
+
+// The controls of the looks of the lens, from the table of parameters: a choice of words, a number or a pair; which of
+// them can be keyed by frame.
+nlohmann::json look_controls(const Presets &lenses);
 
 // The samples of a pixel of the picture (of its middle sub-pixel), front to back: depth, CoC, alpha, colour, objects.
 nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "chain/parameters.h"
 #include "harness/history.h"
 
 #include <CLI/CLI.hpp>
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -22,28 +21,13 @@ namespace {
 // Options that only dof-view has; the flags take no value.
 constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "-v", "--verbose"};
-// Picture options of dof-gather that take no value.
-constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused", "--unpremultiplied"};
 
-// Options that a page may set, besides the looks that are numbers.
-constexpr std::array settable{
-    "fstop",      "lens-radius", "focus-distance",       "quality",          "proxy", "show",
-    "lens-point", "tilt",        "axial-chromatic-type", "cat-eye-darkening"};
-
-// Setting `option` removes `other`, which says the same in another way.
-struct InPlaceOf {
-    const char *option, *other;
-};
-constexpr InPlaceOf in_place_of[] = {{"focus-distance", "--focus-pixel"}, {"fstop", "--lens-radius"},
-                                     {"lens-radius", "--fstop"},          {"blades", "--aperture"},
-                                     {"blade-curvature", "--aperture"},   {"blade-rotation", "--aperture"}};
-
-bool is_settable(const std::string &option) {
-    if (is_among(settable, option)) return true;
-    for (const auto table : {look_numbers(), highlight_numbers()})
-        if (std::ranges::any_of(table, [&](const LookNumber &number) { return option == number.name; }))
-            return true;
-    return false;
+const Parameter *parameter_of(const std::string &option) {
+    return option.starts_with("--") ? find_parameter(option.substr(2)) : nullptr;
+}
+bool takes_no_value(const std::string &option) {
+    const Parameter *row = parameter_of(option);
+    return is_among(own_flags, option) || (row && row->form == ParameterForm::flag);
 }
 
 std::string name_of(const std::string &word) { return word.substr(0, word.find('=')); }
@@ -57,7 +41,7 @@ Words without(const Words &words, const Leaves &leaves) {
         const std::string name = name_of(words[i]);
         if (!words[i].starts_with('-') || !leaves(name))
             kept.push_back(words[i]);
-        else if (!has_own_value(words[i]) && !is_among(own_flags, name) && !is_among(picture_flags, name))
+        else if (!has_own_value(words[i]) && !takes_no_value(name))
             ++i;
     }
     return kept;
@@ -72,20 +56,18 @@ std::string quoted(const std::string &text) {
     return result + "'";
 }
 
-bool is_number(const std::string &text) {
-    char *end = nullptr;
-    std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' && std::isalpha(static_cast<unsigned char>(text.back())) == 0;
-}
-
-// Spells a value as a keyword argument in Python: numbers as they are, pairs in brackets, all else as text.
-std::string python_value(const std::string &option, const std::string &value) {
-    if (is_among(picture_flags, option)) return "True";
-    if (option == "--holdout") return "sparselens.open_ldi(" + quoted(value) + ")";
-    if (value == "inf") return "float('inf')";
-    if (is_number(value)) return value;
-    if (option == "--tilt" || option == "--focus-pixel") return "(" + value + ")";
-    return quoted(value);
+// Spells a value as a keyword argument in Python.
+std::string python_value(ParameterForm form, const std::string &value) {
+    switch (form) {
+    case ParameterForm::flag: return "True";
+    case ParameterForm::whole:
+    case ParameterForm::number: return value == "inf" ? "float('inf')" : value;
+    case ParameterForm::pair:
+    case ParameterForm::pixel:
+    case ParameterForm::box: return "(" + value + ")";
+    case ParameterForm::ldi: return "sparselens.open_ldi(" + quoted(value) + ")";
+    default: return quoted(value);
+    }
 }
 
 } // namespace
@@ -113,17 +95,18 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
     for (const auto &setting : settings) {
         const std::string &option = setting.first, &value = setting.second;
         const auto preset = option == "lens" ? presets.find(value) : presets.end();
-        if (!is_settable(option) && !(option == "lens" && value.empty()) && preset == presets.end())
+        const Parameter *row = find_parameter(option);
+        const bool settable = row && row->page;
+        if (!settable && !(option == "lens" && value.empty()) && preset == presets.end())
             throw UsageError("the request: a page may not set " + option + " to " + value);
         if (value.empty()) continue;
         const std::string name = "--" + option;
         words = without(words, [&](const std::string &other) {
-            return other == name || std::ranges::any_of(in_place_of, [&](const InPlaceOf &pair) {
-                       return option == pair.option && other == pair.other;
-                   });
+            const Parameter *of_other = parameter_of(other);
+            return other == name || (of_other && exclude(option, of_other->name));
         });
         words.push_back(name);
-        if (!is_among(picture_flags, name)) words.push_back(preset == presets.end() ? value : preset->second);
+        if (!takes_no_value(name)) words.push_back(preset == presets.end() ? value : preset->second);
     }
     return words;
 }
@@ -155,35 +138,27 @@ std::string shell_command(const Words &words, const std::string &output) {
 }
 
 std::string python_script(const Words &words, const std::string &input, const std::string &output) {
-    constexpr std::array of_file{"--depth",      "--near",        "--far",   "--depth-channel",
-                                 "--depth-file", "--stereo-view", "--layer", "--unpremultiplied"};
-    constexpr std::array of_output{"--colorconfig", "--display", "--view-transform"};
-    constexpr std::array of_tools{"--colorspace", "--output-colorspace", "--show", "--lens-point"};
-    std::string opened, gathered, written, missing;
+    std::string missing;
+    std::map<PythonCall, std::string> given;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (!words[i].starts_with("--")) continue;
         const std::string option = name_of(words[i]);
+        const Parameter *row = parameter_of(option);
+        if (!row) continue;
         std::string value;
         if (has_own_value(words[i]))
             value = words[i].substr(option.size() + 1);
-        else if (!is_among(picture_flags, option) && i + 1 < words.size())
+        else if (!takes_no_value(option) && i + 1 < words.size())
             value = words[++i];
-        std::string keyword = option.substr(2);
-        std::ranges::replace(keyword, '-', '_');
-        const std::string text = ", " + keyword + "=" + python_value(option, value);
-        if (is_among(of_tools, option))
+        if (row->python == PythonCall::none)
             missing += fmt::format("# {} {} is of dof-gather alone\n", option, value);
-        else if (is_among(of_file, option))
-            opened += text;
-        else if (is_among(of_output, option))
-            written += text;
         else
-            gathered += text;
+            given[row->python] += ", " + keyword_of(row->name) + "=" + python_value(row->form, value);
     }
     return fmt::format(
         "import sparselens\n{}ldi = sparselens.open_ldi({}{})\npicture = sparselens.gather(ldi{})\n"
         "sparselens.write({}, picture{})\n",
-        missing, quoted(input), opened, gathered, quoted(output), written);
+        missing, quoted(input), given[PythonCall::open_ldi], given[PythonCall::gather], quoted(output),
+        given[PythonCall::write]);
 }
 
 } // namespace sparselens

@@ -60,17 +60,6 @@ std::vector<GatherCommand> commands_of(const FrameCommands &frames) {
     return commands;
 }
 
-Json look_table() {
-    Json all = Json::array();
-    for (const auto table : {look_numbers(), highlight_numbers()})
-        for (const LookNumber &number : table)
-            all.push_back({{"name", number.name},
-                           {"unit", number.unit},
-                           {"help", number.help},
-                           {"range", number.range.words}});
-    return all;
-}
-
 } // namespace
 
 Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameCommands &frames,
@@ -121,7 +110,7 @@ std::string Viewer::facts(const Asked &asked) {
                {"pixel_aspect", windows.pixel_aspect},
                {"samples", frame->packed.samples()},
                {"lens_method", command.picture.method == &gather_methods().front()},
-               {"looks", look_table()},
+               {"looks", look_controls(options_.presets)},
                {"reference", !options_.reference.empty()},
                {"save", !options_.save.empty()},
                {"objects", !frame->names.empty()},
@@ -129,8 +118,6 @@ std::string Viewer::facts(const Asked &asked) {
                {"farthest", json_number(frame->depths.farthest)}};
     for (std::size_t i = 0; frames_.is_range() && i < frames_.size(); ++i)
         facts["frames"].push_back(frames_.number(i));
-    for (const auto &preset : options_.presets) facts["lenses"].push_back(preset.first);
-    for (const auto &type : chromatic_types()) facts["chromatic_types"].push_back(type.first);
     if (!guess_.empty()) facts["guess"] = guess_in_words(guess_);
     if (camera.metres_per_unit) facts["metres_per_unit"] = *camera.metres_per_unit;
     if (camera.fstop) facts["fstop"] = json_number(*camera.fstop);

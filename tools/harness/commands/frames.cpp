@@ -1,14 +1,13 @@
 #include "harness/commands/frames.h"
 
 #include "base/error.h"
-#include "base/text.h"
+#include "chain/parameters.h"
 #include "harness/commands/named_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdio>
@@ -99,12 +98,11 @@ std::vector<int> numbers_on_disk(const std::string &name) {
     return {numbers.begin(), numbers.end()};
 }
 
-// The options whose values can be keyed by frame, in a word or in a file (@keys.txt).
-constexpr std::array keyed_options{
-    "--focus-distance", "--fstop",       "--lens-radius", "--focal-length",    "--sensor-width",
-    "--scene-unit",     "--focus-pixel", "--blades",      "--blade-curvature", "--blade-rotation",
-    "--squeeze",        "--spherical",   "--cat-eye",     "--axial-chromatic", "--field-curvature",
-    "--astigmatism",    "--tilt",        "--breathing"};
+// The parameter of an option whose values can be keyed by frame, in a word or in a file (@keys.txt); else null.
+const Parameter *keyed_parameter(const std::string &option) {
+    const Parameter *found = option.starts_with("--") ? find_parameter(option.substr(2)) : nullptr;
+    return found && found->keyable ? found : nullptr;
+}
 
 } // namespace
 
@@ -161,15 +159,16 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
     word.before = text.substr(0, start);
     word.value = text.substr(start);
     word.is_output = is_output_word(option);
-    const KeyKind kind = option == "--focus-pixel" ? KeyKind::pixel
-                         : option == "--tilt"      ? KeyKind::pair
-                                                   : KeyKind::number;
-    word.keys_from_file = is_among(keyed_options, option) && word.value.starts_with('@');
+    const Parameter *keyed = keyed_parameter(option);
+    const KeyKind kind = keyed && keyed->form == ParameterForm::pixel  ? KeyKind::pixel
+                         : keyed && keyed->form == ParameterForm::pair ? KeyKind::pair
+                                                                       : KeyKind::number;
+    word.keys_from_file = keyed && word.value.starts_with('@');
     if (word.keys_from_file)
         word.keys = read_keys(word.value.substr(1), kind);
     else if (option.starts_with('-'))
         word.keys = parse_keys(word.value, kind);
-    if (word.keys && is_among(keyed_options, option)) word.keyed_option = option;
+    if (word.keys && keyed) word.keyed_option = option;
     std::error_code error;
     if (word.keys || word.value.size() > longest_name ||
         (names_are_names && std::filesystem::exists(word.value, error)))

@@ -20,7 +20,7 @@ function frameText() {
 
 // The values that a key records: focus and f-number, and the looks that are set or have keys.
 function keyedNow() {
-    const looks = state.facts.looks.map((look) => look.name).filter((name) => !name.startsWith('highlight'));
+    const looks = state.facts.looks.filter((look) => look.keyable && look.control === 'number').map((look) => look.name);
     const set = looks.filter((name) => name in time.keys || name in state.settings);
     return { 'focus-distance': focusNow(), [aperture()]: apertureNow(),
         ...Object.fromEntries(set.map((name) => [name, Number(state.settings[name] ?? time.keys[name]?.[time.frame] ?? 0)])) };

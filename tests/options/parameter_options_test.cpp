@@ -1,4 +1,4 @@
-#include "options/lens_options.h"
+#include "options/parameter_options.h"
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 LensValues parsed(std::vector<std::string> words) {
     CLI::App app;
     LensValues options;
-    add_lens_options(app, options);
+    add_parameters(app, lens_parameters(), options);
     std::reverse(words.begin(), words.end()); // as CLI11 wants them
     app.parse(words);
     return options;
