@@ -1,10 +1,24 @@
-"""Writes the docstrings of the stubs as C++ constants: docs.py STUBS HEADER.
+"""Writes the stubs from stubs.pyi, and their docstrings as C++ constants: docs.py TEMPLATE STUBS HEADER.
 
-The docstring of the stubs themselves becomes doc::module. The docstring of the function gather becomes doc::gather; of
+In the template, LENS stands for the lens values that many functions take, as keywords (**LENS) or in a docstring. In
+the header, the docstring of the stubs themselves becomes doc::module. The docstring of the function gather becomes doc::gather; of
 the class View, doc::View::text; and of its member z, doc::View::z. The constants of functions, and of classes that can be
 called, begin with the signature in the form that inspect reads."""
 import ast
+import re
 import sys
+import textwrap
+
+LENS = {"focal_length": "mm", "sensor_width": "mm, spans the display window", "fstop": "a number, or inf",
+        "lens_radius": "scene units, instead of fstop", "focus_distance": "scene units, or inf", "scene_unit": "metres"}
+
+
+def filled(template):
+    keywords = "".join(rf"\1{name}: Optional[float] = None,\n" for name in LENS)
+    text = ", ".join(f"{name} ({what})" for name, what in LENS.items())
+    template = re.sub(r"^( +)\*\*LENS,\n", keywords, template, flags=re.M)
+    return re.sub(r"^( +)LENS$", lambda found: textwrap.fill(text, 118, initial_indent=found[1], subsequent_indent=found[1]),
+                  template, flags=re.M)
 
 
 def signature(name, function):
@@ -32,9 +46,12 @@ def constants(nodes):
             yield constant(name, signature(name, node) + text)
 
 
-with open(sys.argv[1], encoding="utf-8") as stubs:
-    tree = ast.parse(stubs.read())
-with open(sys.argv[2], "w", encoding="utf-8") as header:
+with open(sys.argv[1], encoding="utf-8") as template:
+    stubs = filled(template.read())
+with open(sys.argv[2], "w", encoding="utf-8") as file:
+    file.write(stubs)
+tree = ast.parse(stubs)
+with open(sys.argv[3], "w", encoding="utf-8") as header:
     header.write("#pragma once\nnamespace sparselens::python::doc {\n" + constant("module", ast.get_docstring(tree)))
     header.writelines(constants(node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))))
     header.write("} // namespace sparselens::python::doc\n")

@@ -85,25 +85,23 @@ Json look_controls(const Presets &lenses) {
         const PageControl &control = row->control;
         const bool of_file = row->form == ParameterForm::file;
         if (*control.label == '\0' || (of_file && lenses.empty())) continue;
-        Json look{{"name", row->name},
-                  {"label", control.label},
-                  {"help", with_options(row->help)},
-                  {"keyable", row->keyable}};
-        if (row->form == ParameterForm::number) {
-            look.update({{"control", "number"},
-                         {"low", control.low},
-                         {"high", control.high},
-                         {"usual", control.usual},
-                         {"whole_from", control.whole_from}});
-        } else if (row->form == ParameterForm::pair) {
-            look["control"] = "pair";
-        } else {
-            look["control"] = "choice";
-            look["words"] = row->form == ParameterForm::flag ? std::vector<std::string>{"on"} : row->words;
-            if (of_file)
-                for (const auto &lens : lenses) look["words"].push_back(lens.first);
-        }
-        all.push_back(std::move(look));
+        std::vector<std::string> words = row->words;
+        if (row->form == ParameterForm::flag) words.push_back("on");
+        for (const auto &lens : lenses)
+            if (of_file) words.push_back(lens.first);
+        const char *kind = row->form == ParameterForm::number ? "number"
+                           : row->form == ParameterForm::pair ? "pair"
+                                                              : "choice";
+        all.push_back({{"name", row->name},
+                       {"label", control.label},
+                       {"help", with_options(row->help)},
+                       {"keyable", row->keyable},
+                       {"control", kind},
+                       {"words", words},
+                       {"low", control.low},
+                       {"high", control.high},
+                       {"usual", control.usual},
+                       {"whole_from", control.whole_from}});
     }
     return all;
 }

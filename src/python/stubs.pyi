@@ -124,8 +124,7 @@ class View(_Image, _Opened):
       name: for messages (default: "view")
       data_window, display_window, pixel_aspect (default: (0, 0, width - 1, height - 1) for both, and 1)
       depth, near, far, depth_channel, unpremultiplied: what depths and colours mean, as in open_view
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises TypeError and UsageError (a ValueError), which name the argument, and Error if most depths are invalid."""
 
@@ -147,12 +146,7 @@ class View(_Image, _Opened):
         far: Optional[float] = None,
         depth_channel: Optional[str] = None,
         unpremultiplied: bool = False,
-        focal_length: Optional[float] = None,
-        sensor_width: Optional[float] = None,
-        fstop: Optional[float] = None,
-        lens_radius: Optional[float] = None,
-        focus_distance: Optional[float] = None,
-        scene_unit: Optional[float] = None,
+        **LENS,
     ) -> None:
         """See help(sparselens.View)."""
     @property
@@ -177,8 +171,7 @@ class Ldi(_Windows, _Opened):
       name: for messages (default: "ldi")
       data_window, display_window, pixel_aspect, world_to_camera: as in View
       depth, near, far, unpremultiplied: what z and the colours mean, as in open_view
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Samples are sorted, and overlaps resolved. Raises TypeError and UsageError (a ValueError), which name the
     argument."""
@@ -205,12 +198,7 @@ class Ldi(_Windows, _Opened):
         near: Optional[float] = None,
         far: Optional[float] = None,
         unpremultiplied: bool = False,
-        focal_length: Optional[float] = None,
-        sensor_width: Optional[float] = None,
-        fstop: Optional[float] = None,
-        lens_radius: Optional[float] = None,
-        focus_distance: Optional[float] = None,
-        scene_unit: Optional[float] = None,
+        **LENS,
     ) -> None:
         """See help(sparselens.Ldi)."""
     @property
@@ -355,12 +343,7 @@ def open_view(
     stereo_view: Optional[str] = None,
     layer: Optional[str] = None,
     unpremultiplied: bool = False,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> View:
     """Opens a rendered view, a flat EXR with depth, and returns a View. Invalid values are repaired, with a warning.
 
@@ -375,8 +358,7 @@ def open_view(
     layer: which picture to take from a file that holds several, such as a view layer of Blender.
     unpremultiplied: the colours of the file are not yet multiplied by A.
     Lens values replace those of the file:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises Error if the file cannot be read, and UsageError if a value is missing."""
 
@@ -391,12 +373,7 @@ def open_ldi(
     stereo_view: Optional[str] = None,
     layer: Optional[str] = None,
     unpremultiplied: bool = False,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Ldi:
     """Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are as in open_view."""
 
@@ -422,12 +399,7 @@ def warp(
     device: Optional[str] = "cpu",
     supersample: Optional[int] = None,
     progress: Optional[_Progress] = None,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Ldi:
     """Warps views into one layered depth image and returns an Ldi. Does what ldi-warp does.
 
@@ -447,8 +419,7 @@ def warp(
       say, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the centre view:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises UsageError if the position of a view or the focal length is unknown, and Error if views do not match."""
 
@@ -460,12 +431,7 @@ def cluster(
     supersample: Optional[int] = None,
     recolor: Optional[Picture] = None,
     progress: Optional[_Progress] = None,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Ldi:
     """Merges samples that no lens tells apart and returns an Ldi. Does what ldi-cluster does.
 
@@ -477,8 +443,7 @@ def cluster(
     recolor: a flat Picture of the same frame. The samples get its colours and light instead of their own.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises UsageError if the lens is unknown, and Error if several LDIs do not have one camera."""
 
@@ -519,12 +484,7 @@ def gather(
     lens: Optional[_Path] = None,
     aperture: Optional[_Path] = None,
     progress: Optional[_Progress] = None,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Picture:
     """Makes the picture that a lens takes of an LDI and returns a Picture. Does what dof-gather does.
 
@@ -555,8 +515,7 @@ def gather(
       keywords replace its values), aperture (a picture, instead of blades).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises UsageError if the lens is unknown, or if keywords contradict each other."""
 
@@ -592,20 +551,14 @@ def show(
     ldi: Ldi,
     what: Literal["coc", "focus", "layers"],
     *,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Picture:
     """Returns false colours that show an Ldi and a lens, as a Picture of display values. The same as dof-gather's.
 
     what: "coc", the circle of confusion of the front sample: white in focus, blue in front, red behind;
       "focus", green where that sample is in focus; "layers", the number of samples per pixel.
     Lens values replace those of the LDI:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises UsageError if the lens is unknown; layers needs no lens."""
 
@@ -618,12 +571,7 @@ def plan(
     supersample: Optional[int] = None,
     rays: Optional[int] = None,
     progress: Optional[_Progress] = None,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> Plan:
     """Plans which views from the rim of the lens, and which of their pixels, are worth rendering; returns a Plan. Does
     what ldi-plan does.
@@ -635,8 +583,7 @@ def plan(
     rays: all rays per pixel of the picture, to divide between views and renders through the lens (Plan.rays).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the view:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises UsageError if the lens is unknown."""
 
@@ -645,12 +592,7 @@ def compare(
     reference: Union[Picture, View, _Floats],
     *,
     regions: Optional[Ldi] = None,
-    focal_length: Optional[float] = None,
-    sensor_width: Optional[float] = None,
-    fstop: Optional[float] = None,
-    lens_radius: Optional[float] = None,
-    focus_distance: Optional[float] = None,
-    scene_unit: Optional[float] = None,
+    **LENS,
 ) -> _Comparison:
     """Returns how far a picture is from its reference, as a dict of dof-compare's figures: psnr, psnr_tonemapped and
     psnr_worst (dB), relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite; with regions, also the same for each
@@ -658,8 +600,7 @@ def compare(
 
     image, reference: a Picture, a View, or float32 (height, width, 3 or 4).
     regions: an Ldi that tells what is in focus, blurred, or a silhouette, by its lens and these values:
-      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
-      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+      LENS
 
     Raises Error if R, G or B is missing or the display windows differ in size."""
 
