@@ -1,9 +1,13 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
+#include "base/error.h"
 #include "chain/file_notices.h"
 #include "chain/plan_views.h"
+#include "chain/usd_shot.h"
+#include "harness/commands/named_files.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/cameras_file.h"
+#include "io/files/text_file.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>
@@ -60,8 +64,55 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
             {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
 }
 
-void run(const PlanCommand &options, const ToolContext &tool) {
-    const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
+void write_layer(const PlanCommand &options, UsdViews &views) {
+    if (options.up_axis) views.up_axis = *options.up_axis;
+    write_text_file(options.cameras, usd_text(views));
+}
+
+// Writes the cameras around a camera of USD.
+void write_shot(const PlanCommand &options, const ToolContext &tool, UsdViews &all_frames) {
+    if (options.camera.file.empty() || !holds_all_frames(options.cameras))
+        throw UsageError(
+            "give a centre view, or `camera=SHOT.usda` and `cameras=VIEWS.usda` for cameras alone");
+    if (!options.output.empty()) throw UsageError("`output`: a plan needs a centre view");
+    ShotRequest request{options.camera, options.lens, options.plan.views, options.size};
+    if (!request.camera.frame) request.camera.frame = tool.frame;
+    UsdViews views = views_of_shot(request, tool.tell());
+    all_frames.frames.merge(views.frames);
+    views.frames = all_frames.frames;
+    write_layer(options, views);
+}
+
+// Writes the cameras of a plan.
+void write_planned(const PlanCommand &options, const ToolContext &tool, const PlannedViews &made,
+                   const StatedCameras &stated, UsdViews &all_frames) {
+    if (!holds_all_frames(options.cameras)) {
+        const Camera &camera = made.camera;
+        const ThinLens &lens = made.setting.lens;
+        return write_cameras(options.cameras,
+                             cameras_of(made.plan, camera, lens, made.setting.windows.display_width()),
+                             {options.centre, lens, camera.metres_per_unit});
+    }
+    add_planned(all_frames, made, tool.frame);
+    if (all_frames.frames.at(tool.frame.value_or(0)).mirrored)
+        warn_once(tool, "mirrored",
+                  options.centre + ": the world of its camera is left-handed; " + options.cameras +
+                      " has z with the other sign");
+    if (stated.file()) all_frames.up_axis = stated.file()->layer.up_axis;
+    write_layer(options, all_frames);
+}
+
+// `all_frames`: the cameras of the frames before, which one layer of USD holds.
+void run(const PlanCommand &options, const ToolContext &tool, UsdViews &all_frames) {
+    if (options.centre.empty()) return write_shot(options, tool, all_frames);
+    if (options.output.empty())
+        throw UsageError("`output` is required: the plan to write, or - for standard output");
+    CameraRequest asked = options.camera;
+    if (!asked.frame) asked.frame = tool.frame;
+    const StatedCameras stated(asked);
+    const std::optional<FilmCamera> film = stated.of_centre(options.centre);
+    OpenedView centre = open_view(options.centre, {options.lens, options.depth, film});
+    if (const auto warning = stated_warning(film, options.lens)) centre.warnings.push_back(*warning);
     tell_reading(tool.tell(), options.centre, centre.notes, centre.warnings);
     tell_invalid_values(tool.tell(), options.centre, centre.bad);
     PlannedViews made = plan_views(centre, options.plan, options.lens, options.supersample, options.rays,
@@ -69,11 +120,8 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     made.setting.centre = options.centre;
     const auto &[plan, setting, camera] = made;
     write_plan(options.output, plan, setting, options.masks);
-    const Windows &windows = setting.windows;
-    if (!options.cameras.empty())
-        write_cameras(options.cameras, cameras_of(plan, camera, setting.lens, windows.display_width()),
-                      {options.centre, setting.lens, camera.metres_per_unit});
-    write_stats(tool, plan_stats(plan, options.plan.views, windows));
+    if (!options.cameras.empty()) write_planned(options, tool, made, stated, all_frames);
+    write_stats(tool, plan_stats(plan, options.plan.views, setting.windows));
     std::FILE *const out = options.output == "-" ? stderr : stdout;
     summarise(plan, centre.view, out);
     if (setting.division) say(*setting.division, out);
@@ -82,12 +130,13 @@ void run(const PlanCommand &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
+    UsdViews all_frames;
     return run_frames(
         "ldi-plan",
         "Plans which views from the rim of the lens, and which of their pixels, are worth rendering", argc,
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<PlanCommand>();
             add_plan_options(app, *options);
-            return Job{[options](const ToolContext &tool) { run(*options, tool); }};
+            return Job{[options, &all_frames](const ToolContext &tool) { run(*options, tool, all_frames); }};
         });
 }

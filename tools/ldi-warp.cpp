@@ -27,6 +27,7 @@ Stats warp_stats(const MadeLdi &made) {
 void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &device) {
     LdiFromViews request = options;
     request.name = options.output;
+    if (!request.camera.frame) request.camera.frame = tool.frame;
     request.files = options.views.files;
     for (const auto &[position, file] : options.views.placed)
         request.placed.emplace_back(view_offset(position), file);

@@ -48,6 +48,20 @@ Camera with_subpixels(Camera camera, const LdiFromViews &request) {
     return camera;
 }
 
+// The cameras that the request states for its files and then its placed views, or nothing for each.
+std::vector<std::optional<FilmCamera>> films_of(const LdiFromViews &request,
+                                                const std::vector<std::string> &paths) {
+    const StatedCameras stated(request.camera);
+    std::optional<FilmCamera> centre = stated.of_centre(paths[0]);
+    if (!centre) return std::vector<std::optional<FilmCamera>>(paths.size());
+    std::vector<std::optional<FilmCamera>> films =
+        stated.of_views({request.files.begin() + 1, request.files.end()}, *centre);
+    films.insert(films.begin(), centre);
+    centre->places = false;
+    films.resize(paths.size(), centre);
+    return films;
+}
+
 constexpr std::size_t not_packed_yet = 2; // views in memory; packed ones take half
 
 // The position of a view is the given one, or else follows from worldToCamera (see position_on_lens, whose errors are
@@ -61,7 +75,9 @@ PlacedViews open_views(const LdiFromViews &request) {
     }
     const std::vector<DepthOptions> depths =
         depths_of_pictures(request.depth, request.depth_files, paths.size());
-    OpenedPackedView centre = open_packed_view(paths[0], {request.lens, depths[0]});
+    const std::vector<std::optional<FilmCamera>> films = films_of(request, paths);
+    OpenedPackedView centre = open_packed_view(paths[0], {request.lens, depths[0], films[0]});
+    if (const auto warning = stated_warning(films[0], request.lens)) centre.warnings.push_back(*warning);
     const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
     describe_as(centre, placed);
@@ -70,7 +86,7 @@ PlacedViews open_views(const LdiFromViews &request) {
     in_order(
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
         [&](std::size_t n) {
-            return open_packed_view(paths[n + 1], {request.lens, depths[n + 1]}, camera);
+            return open_packed_view(paths[n + 1], {request.lens, depths[n + 1], films[n + 1]}, camera);
         },
         [&](std::size_t n, OpenedPackedView next) {
             stated.push_back({paths[n + 1], with_subpixels(next.camera, request), positions[n + 1]});

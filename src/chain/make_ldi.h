@@ -3,6 +3,7 @@
 
 #include "chain/colours.h"
 #include "chain/notices.h"
+#include "chain/stated_camera.h"
 #include "deep/packed_view.h"
 #include "denoised/denoised_views.h"
 #include "io/open_packed_view.h"
@@ -30,6 +31,7 @@ struct LdiFromViews {
     std::vector<std::string> denoised = {};
     std::vector<DenoisedPicture> denoised_pictures = {};
     std::string noisy = {};
+    CameraRequest camera = {};           // of all views, instead of those in the files
     std::optional<int> supersample = {}; // pixels of all views, across and down, per pixel of the picture
     LensValues lens = {};
     DepthOptions depth = {};

@@ -5,10 +5,10 @@
 #include "deep/checks/premultiplied_check.h"
 #include "deep/edge_depths.h"
 #include "deep/tidy.h"
-#include "io/camera/camera_read.h"
 #include "io/depth_range.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
+#include "io/opened_camera.h"
 #include "view/depth_reader.h"
 #include "view/speckles.h"
 
@@ -44,7 +44,8 @@ OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions
                      .bad = {},
                      .notes = std::move(file.notes),
                      .warnings = std::move(file.warnings)};
-    opened.camera = camera_with_options(options.lens, read_perspective_camera(opened.header, opened.name));
+    opened.camera = camera_with_options(
+        options.lens, opened_camera(opened.header, opened.name, options.camera, opened.ldi.windows));
     return opened;
 }
 
@@ -65,7 +66,8 @@ public:
     // Returns nothing if all rows are needed at once.
     std::optional<Ldi> operator()(const Imf::Header &header, Ldi rows) {
         const std::array<float, 2> depths = depths_of(rows);
-        const Camera camera = camera_with_options(options_.lens, read_perspective_camera(header, name_));
+        const Camera camera =
+            camera_with_options(options_.lens, opened_camera(header, name_, options_.camera, rows.windows));
         make_planar(rows, options_.depth.meaning, depth_range(options_.depth, header), camera);
         if (!all_valid(rows)) return none();
         const std::size_t in_file = rows.samples();

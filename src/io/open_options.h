@@ -4,6 +4,7 @@
 #include "../view/depth.h"
 #include "../view/resolve_lens.h"
 #include "exr/picture_choice.h"
+#include "usd/film_camera.h"
 
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct DepthOptions {
 struct OpenOptions {
     LensValues lens = {}; // empty values come from the file
     DepthOptions depth = {};
+    std::optional<FilmCamera> camera = {}; // instead of the camera of the file
 };
 
 } // namespace sparselens

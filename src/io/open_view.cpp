@@ -3,11 +3,11 @@
 #include "base/parallel.h"
 #include "deep/checks/premultiplied_check.h"
 #include "deep/edge_depths.h"
-#include "io/camera/camera_read.h"
 #include "io/depth_range.h"
 #include "io/exr/depth_channel.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
+#include "io/opened_camera.h"
 #include "view/depth_reader.h"
 #include "view/speckles.h"
 
@@ -46,7 +46,7 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
     if (options.depth.picture.depth_file.empty()) opened.notes.push_back("depth: " + depth.name);
     if (depth.warning) opened.warnings.push_back(*depth.warning);
     view.z = take_depth(view.image, options.depth.picture.depth_in_memory(), path);
-    const Camera own = read_perspective_camera(opened.header, view.name);
+    const Camera own = opened_camera(opened.header, view.name, options.camera, view.image.windows);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
     if (const auto warning = normalized_warning(options.depth, view.z, view.image.windows.grid()))

@@ -3,8 +3,8 @@
 #   bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]      480x270, 96, 24, 16
 # script.sh: the renders of the script; pictures.sh: its pictures, and the add-on's; window.sh: the add-on in a window;
 # extension.sh: the add-on, installed; mistakes.sh: common mistakes; animation.sh: animated cameras compared with
-# Cycles' own lens; picture.sh: compared with Blender's Defocus node. The figures of lab/results/blender.md: 480x270 512
-# 256 64, which takes hours.
+# Cycles' own lens; picture.sh: compared with Blender's Defocus node; usd.sh: views of the cameras of a layer of USD.
+# The figures of lab/results/blender.md: 480x270 512 256 64, which takes hours.
 set -euo pipefail
 here=$(dirname "${BASH_SOURCE[0]}")
 bin=${1:?usage: bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]}
@@ -14,5 +14,6 @@ bash "$here/pictures.sh" "$bin"
 bash "$here/window.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/extension.sh" "$bin"
 bash "$here/mistakes.sh" "$bin"
+bash "$here/usd.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/animation.sh" "$bin" "$size" "$truth_samples" "$samples"
 bash "$here/picture.sh" "$bin" "$size" "$truth_samples" "$lens_views" "$samples"

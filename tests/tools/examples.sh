@@ -12,6 +12,8 @@ cp view_1.exr left.exr
 cp center.exr beauty.exr
 for view in center view_0 view_1; do cp $view.exr smooth.$view.exr; done
 ldi-warp center.exr view_*.exr -o ldi.exr
+ldi-plan center.exr -o plan.json --views 0 --cameras shot.usda
+ldi-plan --camera shot.usda --views 2 --cameras views.usda
 cp ldi.exr front.exr
 cp ldi.exr back.exr
 cp ldi.exr deep.exr
@@ -33,7 +35,7 @@ for tool in "$bin"/dof-* "$bin"/ldi-*; do
         grep -qF -e "${command%%|*}" page || fail "the manual page of $name lacks: $command"
         [[ $command =~ $elsewhere ]] && continue
         mkdir run
-        cp -- *.exr run
+        cp -- *.exr *.usda run
         (cd run && bash -ec "$command" >said 2>&1) || fail "$command: $(cat run/said)"
         rm -r run
         ran=$((ran + 1))

@@ -107,9 +107,11 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
     return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
-// Whether -u skips the frame.
+// Whether -u skips the frame. A frame is not skipped if it adds to an output that holds all frames.
 bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool) {
     const NamedFiles files = named_files(parsed);
+    if (std::ranges::any_of(files.outputs, [](const NamedFile &file) { return holds_all_frames(file.path); }))
+        return false;
     const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
     if (found == Freshness::stale) return false;
     const std::string &output = files.outputs.front().path;

@@ -1,10 +1,13 @@
 #include "options/plan_options.h"
 
 #include "harness/examples.h"
+#include "options/camera_options.h"
 #include "options/parameter_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <charconv>
 
 namespace sparselens {
 
@@ -13,29 +16,54 @@ namespace {
 CLI::Validator camera_file() {
     return CLI::Validator(
         [](std::string &name) {
-            return name.ends_with(".json") || name.ends_with(".csv")
+            return name.ends_with(".json") || name.ends_with(".csv") || name.ends_with(".usda")
                        ? ""
-                       : "must end in .json or .csv, not '" + name + "'";
+                       : "must end in .json, .csv or .usda, not '" + name + "'";
         },
         "");
+}
+
+Imath::V2i size_of(const std::string &text) {
+    const char *at = text.data(), *const end = at + text.size();
+    const auto read = [&](int &side) {
+        const auto [stop, error] = std::from_chars(at, end, side);
+        at = stop;
+        return error == std::errc() && side >= 1 && side <= 1 << 20;
+    };
+    Imath::V2i size;
+    if (!read(size.x) || at == end || *at++ != 'x' || !read(size.y) || at != end)
+        throw CLI::ValidationError("--size", "must be WIDTHxHEIGHT (e.g. 640x360), not '" + text + "'");
+    return size;
 }
 
 } // namespace
 
 void add_plan_options(CLI::App &app, PlanCommand &options) {
-    app.add_option("CENTER", options.centre, "Centre view, with colour and depth (EXR)")
-        ->type_name("")
-        ->required();
+    app.add_option(
+           "CENTER", options.centre,
+           "Centre view, with colour and depth (EXR); without it, --camera and --cameras write cameras alone")
+        ->type_name("");
     app.add_option("-o,--output", options.output, "Plan to write; - for standard output")
-        ->type_name("PLAN.json")
-        ->required();
+        ->type_name("PLAN.json");
     app.add_option("--masks", options.masks,
                    "Folder for one mask per view, whose A is 1 in the pixels to render")
         ->type_name("DIR");
-    app.add_option("--cameras", options.cameras,
-                   "File for the cameras of the views: offsets, matrices, screen window, for any renderer")
-        ->type_name("FILE.json|FILE.csv")
+    app.add_option(
+           "--cameras", options.cameras,
+           "File for the cameras of the views: offsets, matrices, screen window, for any renderer; as USD, "
+           "one file for all frames of a range, with cameras and render products")
+        ->type_name("FILE.json|FILE.csv|FILE.usda")
         ->check(camera_file());
+    app.add_option_function<std::string>(
+           "--up-axis", [&options](const std::string &axis) { options.up_axis = axis[0]; },
+           "Axis of the world that points up, as --cameras FILE.usda states it (default: as in --camera, "
+           "else Y)")
+        ->type_name("Y|Z")
+        ->check(CLI::IsMember({"Y", "Z"}));
+    app.add_option_function<std::string>(
+           "--size", [&options](const std::string &text) { options.size = size_of(text); },
+           "Size of the picture, without CENTER (default: the resolution of the layer's render settings)")
+        ->type_name("WIDTHxHEIGHT");
     app.add_option(
            "--views", options.plan.views,
            fmt::format("Largest number of views from the rim of the lens (default: {})", options.plan.views))
@@ -57,6 +85,7 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20));
     add_parameters(app, lens_parameters(), options.lens);
+    add_camera_options(app, options.camera);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_parameters(app, depth_file_parameters(), options.depth.picture);
@@ -65,7 +94,9 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
                        {"Divide 320 rays per pixel between views and renders through the lens",
                         "ldi-plan center.exr -o plan.json --rays 320"},
                        {"Print where the cameras stand, for a spreadsheet or a script",
-                        "ldi-plan center.exr -o plan.json --cameras cameras.csv"}});
+                        "ldi-plan center.exr -o plan.json --cameras cameras.csv"},
+                       {"Write the cameras around a camera of USD, with all its keys",
+                        "ldi-plan --camera shot.usda --size 1920x1080 --cameras views.usda"}});
 }
 
 } // namespace sparselens

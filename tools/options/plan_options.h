@@ -11,7 +11,11 @@
 namespace sparselens {
 
 struct PlanCommand {
-    std::string centre, output, masks, cameras;
+    std::string centre; // empty: only cameras, by `camera`
+    std::string output, masks, cameras;
+    CameraRequest camera;
+    std::optional<char> up_axis;
+    std::optional<Imath::V2i> size; // of the picture, without a centre view
     LensValues lens;
     DepthOptions depth;
     PlanOptions plan;

@@ -2,6 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
+#include "options/camera_options.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -71,6 +72,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_device_option(app, options.device, "Device that warps");
     add_compression_option(app, options.compression, true);
     add_parameters(app, lens_parameters(), options.lens);
+    add_camera_options(app, options.camera);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_depth_files_option(app, options.depth_files);
@@ -81,6 +83,8 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
               {"Warp views without camera and lens in their metadata",
                "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
                "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
+              {"Warp views of cameras that ldi-plan wrote as USD",
+               "ldi-warp --camera views.usda center.exr view_*.exr -o ldi.exr"},
               {"Warp views of few samples, with what a denoiser made of them",
                "ldi-warp center.exr view_*.exr --denoised smooth.center.exr smooth.view_*.exr -o ldi.exr"},
               {"Warp, cluster and gather in a pipe",

@@ -203,7 +203,7 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
             throw UsageError(fmt::format("{} has {} frames, not {}", word.value, word.own_numbers.size(),
                                          numbers_.size()));
     for (const Word &word : words_)
-        if (word.is_output && !word.is_sequence && size() > 1)
+        if (word.is_output && !word.is_sequence && !holds_all_frames(word.value) && size() > 1)
             throw UsageError(
                 fmt::format("{} would be written {} times: put #### into its name", word.value, size()));
     for (const Word &word : words_)

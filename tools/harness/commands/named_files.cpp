@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array output_options{"--output", "--depth-out", "--cameras"};
-constexpr std::array input_options{"--view",        "--depth-file", "--center",   "--holdout",
-                                   "--colorconfig", "--regions",    "--plan",     "--lens",
-                                   "--aperture",    "--denoised",   "--gathered", "--recolor"};
+constexpr std::array input_options{"--view",        "--camera",   "--depth-file", "--center", "--holdout",
+                                   "--colorconfig", "--regions",  "--plan",       "--lens",   "--aperture",
+                                   "--denoised",    "--gathered", "--recolor"};
 
 bool is_input(const CLI::Option &option) {
     return option.get_positional() || is_among(input_options, option.get_name());
@@ -72,6 +72,8 @@ Readers readers_of(std::span<const NamedFiles> commands) {
 }
 
 } // namespace
+
+bool holds_all_frames(std::string_view path) { return path.ends_with(".usda"); }
 
 bool is_output_word(std::string_view word) { return word == "-o" || is_among(output_options, word); }
 

@@ -13,6 +13,9 @@ namespace sparselens {
 // Whether the word is an option whose value is an output: -o, --output, --depth-out, --cameras.
 bool is_output_word(std::string_view word);
 
+// Whether one such output holds what all frames of a range give: the cameras of ldi-plan as USD, keyed.
+bool holds_all_frames(std::string_view path);
+
 struct NamedFile {
     std::string option, path;
 };

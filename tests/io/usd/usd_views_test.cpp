@@ -1,0 +1,211 @@
+#include "base/error.h"
+#include "chain/stated_camera.h"
+#include "chain/usd_shot.h"
+#include "io/usd/usd_camera.h"
+#include "io/usd/usd_views.h"
+#include "lens/f_number.h"
+#include "support/scratch_folder.h"
+#include "view/lens_views.h"
+#include "view/projection.h"
+#include "view/resolve_lens.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+const Windows wide = windows_of_size(640, 360);
+const Tell nobody = [](const Notice &) {};
+
+// A camera turned by rotations about all axes.
+Camera some_camera(double metres_per_unit) {
+    Camera camera;
+    camera.focal_length_mm = 35;
+    camera.sensor_width_mm = 24.5;
+    camera.fstop = 2.8;
+    camera.focus_distance = 6.5 / metres_per_unit;
+    camera.metres_per_unit = metres_per_unit;
+    camera.principal_point = Imath::V2d(0.1, -0.05);
+    camera.world_to_camera = Imath::M44d().rotate(Imath::V3d(0.3, -0.5, 1.1)) *
+                             Imath::M44d().setScale(Imath::V3d(1, 1, -1)) *
+                             Imath::M44d().setTranslation(Imath::V3d(3, 4, -5));
+    complete_field(camera);
+    return camera;
+}
+
+class UsdViewsInFiles : public testing::Test {
+protected:
+    ScratchFolder folder;
+
+    std::string put(const std::string &text, const std::string &name = "views.usda") {
+        put_contents(folder.file(name), text);
+        return folder.file(name);
+    }
+    static PlannedViews plan_of(const Camera &camera, const std::vector<Imath::V2d> &points) {
+        PlannedViews planned;
+        planned.camera = camera;
+        planned.setting = {"center.exr", wide, resolve_lens(camera, wide), 2};
+        for (const Imath::V2d &point : points) planned.plan.views.push_back({point, {}, 0});
+        return planned;
+    }
+};
+
+// Written and read again at three scales: the frustum, the lens and the positions on the rim are the same.
+TEST_F(UsdViewsInFiles, AreReadAgain) {
+    for (const double unit : {0.001, 0.01, 1.0}) {
+        const Camera camera = some_camera(unit);
+        const double radius = radius_of(2.8, 35, unit);
+        UsdViews views;
+        add_planned(views, plan_of(camera, {{1, 0}, {0, 1}, {-0.6, -0.8}}), {});
+        const UsdCameras usd(put(usd_text(views)));
+        ASSERT_EQ(usd.cameras.size(), 4u);
+        EXPECT_EQ(usd.layer.metres_per_unit, unit);
+        EXPECT_EQ(usd.resolution, Imath::V2i(640, 360));
+        const Camera centre = with_film(film_camera(usd, camera_called(usd, ""), 0), {}, wide);
+        EXPECT_NEAR(*centre.focal_length_mm, 35, 1e-12);
+        EXPECT_NEAR(*centre.sensor_width_mm, 24.5, 1e-12);
+        EXPECT_EQ(centre.fstop, 2.8);
+        EXPECT_EQ(centre.focus_distance, camera.focus_distance);
+        EXPECT_NEAR((*centre.principal_point - *camera.principal_point).length(), 0, 1e-12);
+        EXPECT_TRUE(centre.world_to_camera->equalWithAbsError(*camera.world_to_camera, 1e-12));
+        std::vector<Camera> rim;
+        for (const char *name : {"view_0", "view_1", "view_2"})
+            rim.push_back(with_film(film_camera(usd, camera_called(usd, name), 0), {}, wide));
+        const LensViews placed = position_on_lens(rim, std::vector<std::string>{"0", "1", "2"}, centre);
+        const Imath::V2d expected[] = {{radius, 0}, {0, radius}, {-0.6 * radius, -0.8 * radius}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR((placed.positions[i] - expected[i]).length(), 0, 1e-12 * radius + 1e-14) << unit;
+            EXPECT_EQ(placed.framings[i].zoom, 1);
+        }
+    }
+}
+
+TEST_F(UsdViewsInFiles, SwitchDepthOfFieldOffAndNameTheirProducts) {
+    UsdViews views;
+    add_planned(views, plan_of(some_camera(1), {{1, 0}}), {});
+    const std::string text = usd_text(views);
+    const auto count = [&](const std::string &what) {
+        std::size_t n = 0;
+        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+        return n;
+    };
+    EXPECT_EQ(count("float fStop = 0\n"), 2u);
+    EXPECT_EQ(count("def RenderProduct"), 2u);
+    EXPECT_EQ(count("token productName = \"view_0.exr\""), 1u);
+    EXPECT_EQ(count("rel orderedVars = [</Render/sparselens/rgba>, </Render/sparselens/depth>]"), 2u);
+    EXPECT_EQ(count("timeSamples"), 0u); // a still picture
+    EXPECT_EQ(count("dataWindowNDC"), 0u);
+    views.windows.data = {Imath::V2i(-64, -36), Imath::V2i(639, 359)}; // beyond the left and the top
+    EXPECT_NE(usd_text(views).find("dataWindowNDC = (-0.1, 0, 1, 1.1)"), std::string::npos)
+        << usd_text(views);
+}
+
+// Frames whose plans have different views: the layer has the cameras of all, and only what changes is keyed.
+TEST_F(UsdViewsInFiles, HoldAllFramesOfARange) {
+    UsdViews views;
+    Camera camera = some_camera(1);
+    add_planned(views, plan_of(camera, {{1, 0}, {0, 1}}), 7);
+    camera.fstop = 1.4;
+    add_planned(views, plan_of(camera, {{-1, 0}, {0, 1}}), 8);
+    const std::string text = usd_text(views);
+    EXPECT_NE(text.find("startTimeCode = 7\n"), std::string::npos);
+    EXPECT_NE(text.find("8: \"view_2.0008.exr\""), std::string::npos);
+    EXPECT_NE(text.find("matrix4d xformOp:transform = "), std::string::npos); // it stands still
+    const UsdCameras usd(put(text));
+    ASSERT_EQ(usd.cameras.size(), 4u);
+    for (const auto &[frame, fstop] : {std::pair(7, 2.8), std::pair(8, 1.4)}) {
+        const double radius = radius_of(fstop, 35, 1);
+        const auto at = [&](const char *name) {
+            return with_film(film_camera(usd, camera_called(usd, name), frame), {}, wide);
+        };
+        EXPECT_EQ(at("center").fstop, fstop);
+        const auto by = position_relative_to(at("center"), at("view_2"), "");
+        ASSERT_TRUE(by);
+        EXPECT_NEAR((*by - Imath::V3d(-radius, 0, 0)).length(), 0, 1e-14);
+    }
+    PlannedViews other = plan_of(camera, {});
+    other.setting.windows = windows_of_size(320, 180);
+    EXPECT_NE(what_of<Error>([&] { add_planned(views, other, 9); }).find("its size"), std::string::npos);
+    camera.world_to_camera = Imath::M44d().setScale(Imath::V3d(-1, 1, -1)); // as in Unreal
+    add_planned(views, plan_of(camera, {}), 9);
+    EXPECT_TRUE(views.frames.at(9).mirrored);
+    EXPECT_FALSE(views.frames.at(8).mirrored);
+    const Imath::M44d &to_world = views.frames.at(9).to_world;
+    EXPECT_EQ(Imath::V3d(1, 0, 0) * to_world, Imath::V3d(-1, 0, 0));
+    EXPECT_EQ(Imath::V3d(0, 0, -1) * to_world, Imath::V3d(0, 0, 1)); // forward was -z
+    camera.world_to_camera.reset();
+    EXPECT_NE(what_of<Error>([&] {
+                  add_planned(views, plan_of(camera, {}), 9);
+              }).find("center.exr: does not say where"),
+              std::string::npos);
+}
+
+TEST_F(UsdViewsInFiles, FollowACameraOfUsdOverItsKeys) {
+    const std::string shot = put(
+        "#usda 1.0\n( metersPerUnit = 0.01 upAxis = \"Z\" )\ndef Camera \"c\" { float focalLength = "
+        "40\nfloat "
+        "horizontalAperture = 36\nfloat verticalAperture = 20.25\nfloat focusDistance = 200\nfloat "
+        "fStop.timeSamples = { 1: 2, 4.5: 4 }\ndouble3 xformOp:rotateXYZ.timeSamples = { 1: (0, 0, 0), 4.5: "
+        "(0, 70, "
+        "0) }\nuniform token[] xformOpOrder = [\"xformOp:rotateXYZ\"]\nfloat2 clippingRange = (2, 3000) }",
+        "shot.usda");
+    ShotRequest request{.camera = {.file = shot}, .size = Imath::V2i(640, 360)};
+    const UsdViews views = views_of_shot(request, nobody);
+    EXPECT_EQ(views.up_axis, 'Z');
+    std::vector<double> times;
+    for (const auto &[time, frame] : views.frames) times.push_back(time);
+    EXPECT_EQ(times, (std::vector<double>{1, 2, 3, 4,
+                                          4.5})); // frames between keys, as turns are not linear in a matrix
+    const UsdCameras usd(put(usd_text(views)));
+    for (const double time : times) {
+        const UsdCameras of_shot(shot);
+        const FilmCamera truth = film_camera(of_shot, of_shot.cameras[0], time);
+        const FilmCamera found = film_camera(usd, camera_called(usd, ""), time);
+        EXPECT_TRUE(found.world_to_camera.equalWithAbsError(truth.world_to_camera, 1e-12)) << time;
+        EXPECT_NEAR(*found.fstop, *truth.fstop, 1e-12);
+        EXPECT_NEAR(views.frames.at(time).radius, 4 / (2 * *truth.fstop), 1e-12); // 40 mm are 4 units
+        EXPECT_EQ(clipping_range(usd, camera_called(usd, "view_3"), time), Imath::V2d(2, 3000));
+    }
+    request.lens.fstop = 1;
+    EXPECT_NEAR(views_of_shot(request, nobody).frames.at(3).radius, 2, 1e-12);
+    request.camera.frame = 3;
+    EXPECT_EQ(views_of_shot(request, nobody).frames.size(), 1u);
+    request.size.reset();
+    EXPECT_NE(what_of<UsageError>([&] { views_of_shot(request, nobody); }).find("give `size`"),
+              std::string::npos);
+}
+
+TEST_F(UsdViewsInFiles, GiveEachFileTheCameraOfItsName) {
+    UsdViews views;
+    add_planned(views, plan_of(some_camera(1), {{1, 0}, {0, 1}}), {});
+    const StatedCameras stated({.file = put(usd_text(views))});
+    std::optional<FilmCamera> centre = stated.of_centre("renders/center.exr");
+    ASSERT_TRUE(centre);
+    const auto rim = stated.of_views({"renders/view_1.exr", "renders/view_0.0001.exr"}, *centre);
+    EXPECT_TRUE(centre->places);
+    EXPECT_TRUE(rim[0]->name.ends_with("</sparselens/lens/view_1>"));
+    EXPECT_TRUE(rim[1]->name.ends_with("</sparselens/lens/view_0>"));
+    EXPECT_NE(what_of<UsageError>([&] {
+                  stated.of_views({"view_0.exr", "up.exr"}, *centre);
+              }).find("up.exr: "),
+              std::string::npos);
+    const auto others = stated.of_views({"right.exr", "up.exr"}, *centre);
+    EXPECT_FALSE(centre->places); // only the lens
+    EXPECT_FALSE(others[1]->places);
+    EXPECT_FALSE(StatedCameras({}).of_centre("center.exr"));
+    views.frames[1] = views.frames[0];
+    views.frames[1].fstop *= 2;
+    const std::string animated = put(usd_text(views));
+    EXPECT_NE(what_of<UsageError>([&] {
+                  StatedCameras({.file = animated}).of_centre("center.exr");
+              }).find("is animated: give `camera_frame`"),
+              std::string::npos);
+    EXPECT_EQ(StatedCameras({.file = animated, .frame = 1}).of_centre("center.exr")->fstop, 5.6);
+}
+
+} // namespace
+} // namespace sparselens
