@@ -12,7 +12,7 @@ write_basic_package_version_file(sparselens-config-version.cmake COMPATIBILITY S
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens COMPONENT dev)
-install(DIRECTORY share/ocio share/blender share/lenses share/openjd share/slurm share/opencue share/python
+install(DIRECTORY share/ocio share/blender share/nuke share/lenses share/openjd share/slurm share/opencue share/python
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
