@@ -73,7 +73,7 @@ Imath::M44d without_scale(Imath::M44d m, const UsdPlace &place) {
         const double length = axes[std::size_t(i)].length();
         if (!(length > 1e-12 && length < 1e12)) refuse(place, "its transformation is singular");
         axes[std::size_t(i)] /= length;
-        for (int k = 0; k < 3; ++k) m[i][k] = axes[std::size_t(i)][unsigned(k)];
+        for (int k = 0; k < 3; ++k) m[i][k] = axes[std::size_t(i)][k];
     }
     const double shear = std::max(
         {std::abs(axes[0].dot(axes[1])), std::abs(axes[1].dot(axes[2])), std::abs(axes[2].dot(axes[0]))});

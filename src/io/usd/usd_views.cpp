@@ -22,7 +22,7 @@ Imath::M44d rigid(Imath::M44d m) {
     const Imath::V3d right = up.cross(back);
     const Imath::V3d axes[] = {right, up, back};
     for (int row = 0; row < 3; ++row)
-        for (unsigned k = 0; k < 3; ++k) m[row][int(k)] = axes[row][k];
+        for (int k = 0; k < 3; ++k) m[row][k] = axes[row][k];
     return m;
 }
 

@@ -117,7 +117,8 @@ TEST_F(UsdViewsInFiles, HoldAllFramesOfARange) {
     EXPECT_NE(text.find("matrix4d xformOp:transform = "), std::string::npos); // it stands still
     const UsdCameras usd(put(text));
     ASSERT_EQ(usd.cameras.size(), 4u);
-    for (const auto &[frame, fstop] : {std::pair(7, 2.8), std::pair(8, 1.4)}) {
+    for (const int frame : {7, 8}) {
+        const double fstop = frame == 7 ? 2.8 : 1.4;
         const double radius = radius_of(fstop, 35, 1);
         const auto at = [&](const char *name) {
             return with_film(film_camera(usd, camera_called(usd, name), frame), {}, wide);
