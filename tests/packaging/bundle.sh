@@ -1,0 +1,83 @@
+#!/bin/bash
+# The archive of tools/bundle.sh, used from a folder with blanks in its name: its tools make the files that the build
+# makes, without anything of the system but a shell, and where root may, in a root that has nothing else at all.
+#   bash bundle.sh BIN_DIR BUILD_DIR
+. "$(dirname "$0")/../tools/check.sh"
+build=$2
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+fails_saying 1 'is not a build folder' "$source_dir/tools/bundle.sh" "$scratch"
+
+mkdir "my tools"
+exits 0 "$source_dir/tools/bundle.sh" "$build" "my tools" unpacked
+made=$(echo "my tools"/sparselens-*-linux-x86_64)
+[ "$(du -s --apparent-size -B1 "$made" | cut -f1)" -le 120000000 ] || fail "too large: $(cat stdout)"
+if find "$made" | grep -iE 'avcodec|opencv|python3|libasan|/(dof-report|dof-accumulate)'; then fail "that does not belong there"; fi
+for name in sparselens libc6 libstdc++6 nlohmann-json3-dev README common-licenses/LGPL-2.1; do
+    [ -s "$made/licences/$name.txt" ] || [ -s "$made/licences/$name" ] || fail "no licence of $name"
+done
+while read -r library; do
+    grep -q "^$(dpkg-query -S "*/${library##*/}" | sed -n '1s/:.*//p') " "$made/licences/README.txt" || fail "no licence of $library"
+done < <(find "$made/lib" -maxdepth 1 -name '*.so*')
+
+# The files are the build's, also by a link on the PATH and in another folder.
+mkdir theirs ours links
+ln -s "../$made/bin/dof-gather" links/gather-of-the-archive
+for tool in dof-trace ldi-warp ldi-cluster dof-gather dof-compare dof-finish dof-view ldi-plan; do
+    exits 0 env -i PATH=/usr/bin:/bin "$made/bin/$tool" --version
+    [ "$(cat stdout)" = "$("$bin/$tool" --version)" ] || fail "$tool --version says $(cat stdout)"
+done
+sixty_seconds() { # BIN_DIR FOLDER
+    exits 0 env -i SPARSELENS_NO_HISTORY=1 PATH="$1:/usr/bin:/bin" bash -euc "cd '$2'
+        dof-trace fence --size 96x54 --views 2 --spp 4 -o views
+        ldi-warp views/center.exr views/view_*.exr -o - | ldi-cluster - -o fence.ldi.exr
+        dof-gather fence.ldi.exr -o picture.exr
+        for ending in png jpg tif; do dof-gather fence.ldi.exr --focus-distance 2.2 -o picture.\$ending; done"
+}
+sixty_seconds "$bin" theirs
+sixty_seconds "$scratch/$made/bin" ours
+for file in views/center.exr views/view_1.exr fence.ldi.exr picture.exr; do
+    cmp "theirs/$file" "ours/$file" || fail "the archive makes another $file"
+done
+exits 0 links/gather-of-the-archive theirs/fence.ldi.exr -o linked.exr
+cmp linked.exr theirs/picture.exr || fail "by a link: another picture"
+fails_saying 2 'ends in no format that is written: .exr, .png, .jpg, .jpeg, .tif, .tiff' "$made/bin/dof-gather" theirs/fence.ldi.exr -o x.tga
+
+# The pixels of PNG, JPEG and TIFF are those that OpenImageIO writes, also with coverage and pixels that are not square.
+same_pixels() { # NAME
+    for ending in png jpg tif; do
+        oiiotool "theirs/$1.$ending" "ours/$1.$ending" --diff >log 2>&1 || fail "other pixels in $1.$ending: $(cat log)"
+        for of in theirs ours; do oiiotool --info -v "$of/$1.$ending" |
+            grep -E 'channel list|PixelAspect|uint|Unassoc' | sed 's/^[^:]*: *//; /^1$/d' >$of.info; done
+        cmp theirs.info ours.info || fail "$1.$ending: $(cat ours.info), not $(cat theirs.info)"
+    done
+}
+same_pixels picture
+oiiotool --pattern fill:topleft=-0.1,0.5,1.9,1,3:bottomright=0.9,0.2,0.1,0.4,3 37x23 5 --chnames R,G,B,A,Z -d float --attrib:type=float PixelAspectRatio 1.5 -o half.exr
+for of in theirs:"$bin" ours:"$made/bin"; do
+    for ending in png jpg tif; do
+        exits 0 "${of#*:}/dof-gather" half.exr --focal-length 50 --sensor-width 36 --fstop 8 --focus-distance 3 -o "${of%%:*}/half.$ending"
+    done
+done
+same_pixels half
+
+# The full disk is said.
+if [ -w /dev/full ]; then
+    fails_saying 1 '/dev/full' "$made/bin/dof-gather" half.exr --focal-length 50 --sensor-width 36 --fstop 8 --focus-distance 3 -o /dev/full
+fi
+
+# An empty root: the loader of the archive is the only program that the system starts.
+if [ "$(id -u)" -eq 0 ] && chroot / true 2>/dev/null; then
+    mkdir -p "empty/my tools"
+    mv "$made" "empty/my tools/"
+    cp theirs/fence.ldi.exr empty/
+    root="/my tools/$(basename "$made")"
+    for picture in picture.exr picture.tif; do
+        exits 0 env -i SPARSELENS_NO_HISTORY=1 "$(command -v chroot)" empty "$root/lib/ld-linux-x86-64.so.2" --library-path "$root/lib" \
+            "$root/libexec/dof-gather" fence.ldi.exr -o "$picture" $([ $picture = picture.exr ] || echo --focus-distance 2.2)
+    done
+    cmp empty/picture.exr theirs/picture.exr || fail "in an empty root: another picture"
+    cmp empty/picture.tif ours/picture.tif || fail "in an empty root: another TIFF"
+    echo "in an empty root: the same pictures"
+else
+    echo "skipped: the archive in an empty root: only root may change it"
+fi
