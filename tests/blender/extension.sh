@@ -24,8 +24,20 @@ bpy.ops.preferences.addon_install(filepath='$PWD/sparselens_blender.zip')
 bpy.ops.preferences.addon_enable(module='sparselens_blender')"
     echo "add-on: installed; this Blender has no extensions"
 fi
+for version in 9.1 9.2 outside broken; do
+    folder=sparselens-$version
+    [ $version != outside ] || folder=elsewhere
+    mkdir -p $folder/bin
+    for name in ldi-warp dof-gather; do printf '#!/bin/sh\necho "%s of %s"; exit %s\n' $name $version "$([ $version != broken ] || echo 3)" >$folder/bin/$name; done
+    chmod +x $folder/bin/*
+    tar -cJf "$folder.tar.xz" $folder
+done
+mv elsewhere.tar.xz outside.tar.xz
+mv sparselens-broken.tar.xz broken.tar.xz
+echo text >not-packed.tar.xz
 cat >operate.py <<EOF
 $enable
+import os
 import bpy
 scene = bpy.context.scene
 assert bpy.types.SPARSELENS_PT_panel.is_registered
@@ -37,6 +49,17 @@ preferences = next(addons[name].preferences for name in addons.keys() if name.en
 preferences.folder = "$bin"
 assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
 assert bpy.ops.sparselens.take_picture() == {"FINISHED"}
+# Install Tools takes an archive: here one of small scripts. Files that are none are refused, and change nothing.
+preferences.folder = ""
+for wrong in "not-packed.tar.xz", "outside.tar.xz", "broken.tar.xz":
+    try:
+        bpy.ops.sparselens.install_tools(filepath=os.path.join("$PWD", wrong))
+        raise SystemExit("took " + wrong)
+    except RuntimeError as error:
+        assert wrong in str(error) or "cannot be run" in str(error), error
+for version in "9.1", "9.2":
+    assert bpy.ops.sparselens.install_tools(filepath="$PWD/sparselens-%s.tar.xz" % version) == {"FINISHED"}
+    assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
 preferences.folder = "/nowhere"
 for operator in bpy.ops.sparselens.find_tools, bpy.ops.sparselens.take_picture:
     try:
@@ -51,6 +74,8 @@ in_blender small.blend -P "$views" -- -o script --views 1 --samples 2
 for view in center view_0; do alike installed/$view.exr script/$view.exr 90; done
 [ -s installed/picture.exr ] || fail "the installed add-on takes no picture"
 grep -q "dof-gather (sparselens) [0-9.]*, the chosen folder: $bin" operated || fail "the button Test: $(tail -n 5 operated)"
+grep -q "dof-gather of 9.2, installed: " operated || fail "Install Tools: $(tail -n 5 operated)"
+[ "$(find home -name 'sparselens-9*' -o -name '.new-*' | xargs -n 1 basename)" = sparselens-9.2 ] || fail "Install Tools left $(find home -name 'sparselens-9*')"
 if [ -z "$enable" ]; then
     PATH=$bin:$PATH quietly blender -b small.blend --command sparselens -o "$PWD/line.exr" --samples 2 --views 1
     PATH=$bin:$PATH in_blender small.blend -P "$views" -- --picture -o "$PWD/expected.exr" --samples 2 --views 1 --views-folder "$PWD/again"

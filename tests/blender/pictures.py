@@ -8,7 +8,7 @@
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
         makes frames 1 and 2;
         compose FILE.exr: writes the output of the node group;
-        set NAME=VALUE: sets a field of the panel
+        set NAME=VALUE: sets a field of the panel, such as views=3 or lens_looks.cat_eye=0.5; save FILE.blend
 """
 
 import os
@@ -180,6 +180,8 @@ def main(folder, views, *actions):
             bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0))
             bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
             check(addon.taking.follower is None, "another file is followed")
+        elif action == "save":
+            bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0), copy=True)
         elif action == "compose":
             compose(actions.pop(0))
         elif action == "finish":
@@ -197,7 +199,11 @@ def main(folder, views, *actions):
             follow(addon, actions.pop(0))
         elif action == "set":
             name, value = actions.pop(0).split("=")
-            setattr(scene.sparselens, name, type(getattr(scene.sparselens, name))(eval(value)))
+            owner = scene.sparselens
+            while "." in name:
+                group, name = name.split(".", 1)
+                owner = getattr(owner, group)
+            setattr(owner, name, eval(value))
         else:
             sys.exit("pictures.py: unknown: %s" % action)
     addon.unregister()

@@ -36,6 +36,24 @@ press small.blend still take
 press small.blend still set looks="'--cat-eye 0.7'" focus 3 take
 by_hand still "" --focus-distance 3 --cat-eye 0.7
 same still/picture.exr "another look"
+# The looks of the panel are dof-gather's; the text adds further options. A lens file has its own blades and squeeze,
+# unless the camera has some; an aperture's picture has no blades.
+press small.blend still set lens_looks.cat_eye=0.7 set lens_looks.tilt="(10,-5)" set lens_looks.highlight_gain=3 set looks="'--quality final'" focus 3 take
+by_hand still "" --focus-distance 3 --cat-eye 0.7 --tilt 10,-5 --highlight-gain 3 --quality final
+same still/picture.exr "looks of the panel"
+press small.blend still set lens_looks.lens="'$source_dir/share/lenses/anamorphic-2x.json'" focus 3 take
+by_hand still "" --focus-distance 3 --lens "$source_dir/share/lenses/anamorphic-2x.json"
+same still/picture.exr "a lens file"
+press small.blend still set lens_looks.aperture="'$source_dir/share/lenses/mirror.exr'" focus 3 take
+by_hand still "" --focus-distance 3 --aperture "$source_dir/share/lenses/mirror.exr"
+same still/picture.exr "a picture of the aperture"
+press small.blend still set lens_looks.spherical=0.5 save "$PWD/looks.blend" refuse-finish "finishing: Blender's lens has no --spherical"
+quietly blender --python-exit-code 1 -b looks.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/looked/a.exr"
+by_hand looked/views "" --spherical 0.5
+same looked/a.exr "the panel's looks on the command line"
+quietly blender --python-exit-code 1 -b looks.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/looked/a.exr" --looks '--cat-eye 1'
+by_hand looked/views "" --cat-eye 1
+same looked/a.exr "--looks in the place of the panel's"
 press small.blend still take reload "$PWD/saved.blend" focus 3.5 take
 by_hand still "" --focus-distance 3.5
 same still/picture.exr "after saving and opening"
@@ -125,6 +143,18 @@ grep -Eq "of $((9 - $(wc -l <before))) views? rendered and $(wc -l <before) kept
 for frame in 1 2 3; do
     picture same whole/shot.000$frame.exr torn/shot.000$frame.exr >found || fail "after a kill frame $frame is another ($(cat found))"
 done
+
+# The templates for farms run the same line for a frame.
+farm=$source_dir/tests/farm/openjd_template.py template=$source_dir/share/openjd/blender/template.yaml
+mkdir session
+python3 "$farm" check "$source_dir/tests/farm/jobtemplate-2023-09.json" "$template" 2>log || fail "$(cat log)"
+python3 "$farm" run "$template" session Scene="$PWD/lens.blend" Output='//farm/shot.####.exr' Frames=2-3 Script="$views" \
+    Options='--samples 4 --views 2' >log 2>&1 || fail "the template: $(tail -n 5 log)"
+SLURM_ARRAY_TASK_ID=1 SPARSELENS_VIEWS=$views quietly bash "$source_dir/share/slurm/blender.sh" lens.blend '//farm/shot.####.exr' --samples 4 --views 2
+for frame in 1 2 3; do
+    picture same whole/shot.000$frame.exr farm/shot.000$frame.exr >found || fail "on a farm frame $frame is another ($(cat found))"
+done
+[ -z "$(find farm -name '.*')" ] || fail "left are $(find farm -name '.*')"
 # Keys of the lens that change afterwards keep the views; a wider lens, a moved camera, other samples and --again do
 # not.
 again() { # RENDERED EXPRESSION OPTION...

@@ -5,11 +5,14 @@ pictures of them, and of Blender's --command sparselens, which makes pictures.
 import argparse
 import json
 import re
+import shlex
 import sys
 import traceback
 
 import bpy
 
+from . import panel
+from .looks import looks_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -101,8 +104,9 @@ def add_picture_options(add):
     add("--again", action="store_true",
         help="with pictures, render all views, also those of an earlier run "
              "with the same camera, size and samples")
-    add("--looks", default="", metavar="OPTIONS",
-        help="with pictures, options of dof-gather, e.g. '--cat-eye 0.5'")
+    add("--looks", type=shlex.split, metavar="OPTIONS",
+        help="with pictures, options of dof-gather, e.g. '--cat-eye 0.5' "
+             "(default: the looks of the panel)")
     add("--tools", default="", metavar="DIR",
         help="with pictures, folder of ldi-warp and dof-gather (default: "
              "beside the add-on, in pip's package, or on the PATH)")
@@ -212,6 +216,8 @@ def main(options, say):
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again
+    if options.looks is None:
+        options.looks = looks_of(scene.sparselens)
     made = Pictures(scene, eyes, manner, options, say)
     render_now(scene, made.steps(frames_of(options, scene)))
     print("sparselens:", made.words())
@@ -237,6 +243,8 @@ def run(arguments, command=False):
 
 
 def run_as_script():
+    if not hasattr(bpy.types.Scene, "sparselens"):
+        panel.register()  # the panel's looks, which the file holds
     after = sys.argv.index("--") + 1 if "--" in sys.argv else len(sys.argv)
     sys.exit(run(sys.argv[after:]))
 

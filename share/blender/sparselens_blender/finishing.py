@@ -6,9 +6,10 @@ from dataclasses import replace
 from . import pictures, tools
 from .chain import Chain
 from .halves import check_halves, check_looks, halves_steps
+from .looks import looks_of
 from .renders import folder_of, used_layers, view_steps
 from .shots import eyes_of, shot_of
-from .taking import chosen_folder, image_of, looks_of, show
+from .taking import chosen_folder, image_of, show
 
 
 class Finishing:
@@ -42,7 +43,7 @@ class Finishing:
                 *pictures.warp_commands(self.tools, files, self.layer),
                 pictures.gather_command(
                     self.tools, files.path("ldi"), files.path("gathered"),
-                    pictures.lens_options(shot) + self.looks),
+                    pictures.lens_options(shot, self.looks)),
                 pictures.finish_command(self.tools, files, made)])
             yield chain
             self.warnings += chain.warnings

@@ -5,10 +5,11 @@ from types import SimpleNamespace
 
 import bpy
 
-from . import nodes, tools
+from . import nodes, tools, unpack
 from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
 from .finishing import Finishing
+from .looks import looks_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -117,7 +118,7 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
             output=os.path.join(folder, name if "#" in name
                                 else name + "####"),
             views_folder=settings.folder, views=settings.views, layer=None,
-            multilayer=settings.multilayer, looks=settings.looks,
+            multilayer=settings.multilayer, looks=looks_of(settings),
             finish=(max(settings.finish, 2) if settings.finish_frames
                     else 0),
             tools=chosen_folder())
@@ -224,6 +225,32 @@ class SPARSELENS_OT_find_tools(bpy.types.Operator):
         try:
             folder, where = tools.find(chosen_folder())
             text = "%s, %s: %s" % (tools.version(folder), where, folder)
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, text)
+        return {"FINISHED"}
+
+
+class SPARSELENS_OT_install_tools(bpy.types.Operator):
+    """Unpack the archive of sparselens' tools for this add-on: sparselens-VERSION-linux-x86_64.tar.xz"""
+
+    bl_idname = "sparselens.install_tools"
+    bl_label = "Install Tools"
+
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH")
+    filter_glob: bpy.props.StringProperty(default="*.tar.xz",
+                                          options={"HIDDEN"})
+
+    def invoke(self, context, event):
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        try:
+            folder = unpack.unpack(bpy.path.abspath(self.filepath),
+                                   tools.folder_of_archives())
+            text = "%s, installed: %s" % (tools.version(folder), folder)
         except ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

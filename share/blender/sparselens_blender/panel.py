@@ -6,12 +6,17 @@ import textwrap
 
 import bpy
 
-from . import taking
+from . import looks, taking
 from .operators import (
-    SPARSELENS_OT_find_tools, SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_finish,
+    SPARSELENS_OT_install_tools, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
     SPARSELENS_OT_take_picture, frames_of)
 from .shots import picture_size
+
+
+SPARSELENS_Looks = type("SPARSELENS_Looks", (bpy.types.PropertyGroup,),
+                        {"__annotations__": looks.properties()})
 
 
 class SPARSELENS_Settings(bpy.types.PropertyGroup):
@@ -46,9 +51,10 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Animation",
         description="Render the views of all frames of the scene, else those "
                     "of the current one")
+    lens_looks: bpy.props.PointerProperty(type=SPARSELENS_Looks)
     looks: bpy.props.StringProperty(
-        name="Looks", description="Options of dof-gather for what Blender's "
-        "camera does not have, such as --cat-eye 0.5 --spherical 0.3")
+        name="Other Options", description="Further options of dof-gather, "
+        "such as --quality final")
     live: bpy.props.BoolProperty(
         name="Live", default=True,
         description="Once a picture is taken, take it anew whenever focus, "
@@ -90,6 +96,7 @@ class SPARSELENS_Preferences(bpy.types.AddonPreferences):
         row = self.layout.row()
         row.prop(self, "folder")
         row.operator("sparselens.find_tools")
+        self.layout.operator("sparselens.install_tools")
 
 
 class SPARSELENS_PT_panel(bpy.types.Panel):
@@ -118,7 +125,6 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         for name in "supersample", "multilayer", "animation":
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
-        layout.prop(settings, "looks")
         layout.prop(settings, "live")
         layout.operator("sparselens.take_picture")
         if taking.follower:
@@ -133,11 +139,28 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.operator("sparselens.make_nodes")
 
 
-CLASSES = (SPARSELENS_Settings, SPARSELENS_Preferences,
+class SPARSELENS_PT_looks(bpy.types.Panel):
+    bl_label = "Looks"
+    bl_parent_id = "SPARSELENS_PT_panel"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "data"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.sparselens
+        layout.use_property_split = True
+        for name in (*looks.FILES, *[look["name"] for look in looks.ALL]):
+            layout.prop(settings.lens_looks, looks.field_of(name))
+        layout.prop(settings, "looks")
+
+
+CLASSES = (SPARSELENS_Looks, SPARSELENS_Settings, SPARSELENS_Preferences,
            SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
            SPARSELENS_OT_finish, SPARSELENS_OT_render_animation,
            SPARSELENS_OT_make_nodes, SPARSELENS_OT_find_tools,
-           SPARSELENS_PT_panel)
+           SPARSELENS_OT_install_tools,
+           SPARSELENS_PT_panel, SPARSELENS_PT_looks)
 
 
 def register():

@@ -73,14 +73,24 @@ def number(value):
     return repr(float(value))
 
 
-def lens_options(shot):
-    """The camera's lens as options of dof-gather. Cycles treats less than
-    three blades as none."""
+def lens_options(shot, looks=()):
+    """The camera's lens, then the looks, as options of dof-gather. Cycles
+    treats less than three blades as none. What the camera does not say of its
+    aperture is left to a lens file, and an aperture's picture has no
+    blades."""
+    blades = shot.blades if shot.blades >= 3 else 0
+    aperture = {"--blades": (str(blades), blades == 0),
+                "--blade-rotation": (number(math.degrees(shot.rotation)),
+                                     shot.rotation == 0),
+                "--squeeze": (number(shot.ratio), shot.ratio == 1)}
+    if "--aperture" in looks:
+        del aperture["--blades"], aperture["--blade-rotation"]
     return ["--focus-distance", number(shot.focus_distance),
             "--fstop", number(shot.fstop),
-            "--blades", str(shot.blades if shot.blades >= 3 else 0),
-            "--blade-rotation", number(math.degrees(shot.rotation)),
-            "--squeeze", number(shot.ratio)]
+            *[word for name, (value, usual) in aperture.items()
+              if not (usual and "--lens" in looks)
+              for word in (name, value)],
+            *looks]
 
 
 def is_newest(path, others):

@@ -141,7 +141,8 @@ def overscan_steps(scene, folder, shot):
     of small pictures with one sample per pixel."""
     shrink = min(1, LARGEST_PROBE / max(shot.size))
     size = [max(1, round(side * shrink)) for side in shot.size]
-    path = os.path.join(folder, ".overscan.partial.exr")
+    path = os.path.join(folder, ".overscan.%04d.partial.exr"
+                        % scene.frame_current)
 
     def largest(depths, stretch, most):
         radius = max(shot.blur_radius(depth) for depth in depths if depth > 0)

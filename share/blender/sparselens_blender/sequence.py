@@ -2,7 +2,6 @@
 
 import os
 import re
-import shlex
 from dataclasses import replace
 
 import bpy
@@ -56,7 +55,7 @@ class Pictures:
             os.path.basename(options.output)) + self.ending
         self.views = folder_of(options.views_folder or os.path.join(
             os.path.dirname(self.name), "views"))
-        self.looks = shlex.split(options.looks)
+        self.looks = options.looks
         self.count, self.made = Count(), 0
         if options.finish:
             check_halves(scene)
@@ -110,7 +109,7 @@ class Pictures:
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
                 self.tools, files.path("ldi"), gathered,
-                pictures.lens_options(shot) + self.looks),
+                pictures.lens_options(shot, self.looks)),
             *([pictures.finish_command(self.tools, files, made)]
               if self.options.finish else [])])
         yield chain

@@ -1,12 +1,12 @@
 """Takes the pictures of a scene's frame, bit by bit, and shows them."""
 
 import os
-import shlex
 
 import bpy
 
 from . import pictures, tools
 from .chain import Chain, ToolError
+from .looks import looks_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
 
@@ -19,19 +19,12 @@ def chosen_folder():
     return addon.preferences.folder if addon and addon.preferences else ""
 
 
-def looks_of(settings):
-    try:
-        return shlex.split(settings.looks)
-    except ValueError as error:
-        raise ValueError("Looks: %s: %s" % (settings.looks, error)) from error
-
-
 def lens_state(scene):
     """The settings that can change the picture after the render."""
-    settings = scene.sparselens
-    return (scene.name, scene.frame_current, settings.looks, *[
+    looks = looks_of(scene.sparselens)
+    return (scene.name, scene.frame_current, *[
         word for eye in eyes_of(scene)
-        for word in pictures.lens_options(shot_of(scene, eye))])
+        for word in pictures.lens_options(shot_of(scene, eye), looks)])
 
 
 def image_of(key, path):
@@ -83,7 +76,7 @@ class Taking:
             layer = settings.multilayer and used_layers(scene)[0]
             ldi, made = files.path("ldi"), files.path("picture")
             sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
-            options = pictures.lens_options(shot) + looks_of(settings)
+            options = pictures.lens_options(shot, looks_of(settings))
             key = "sparselens, " + scene.name + eye.file_suffix
             size = [side // settings.supersample for side in shot.size]
             warps += [(command, None) for command in pictures.warp_commands(

@@ -1,9 +1,12 @@
 """Finds the tools that make pictures of views: ldi-warp, dof-gather."""
 
+import glob
 import importlib.metadata
 import os
 import shutil
 import subprocess
+
+import bpy
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 ENDING = ".exe" if os.name == "nt" else ""
@@ -14,10 +17,33 @@ class NoTool(ValueError):
     """A tool is not found; the message says where it was searched."""
 
 
+def folder_of_archives():
+    """Where Install Tools unpacks: the extension's own folder, else one of
+    Blender's."""
+    if __package__.startswith("bl_ext."):
+        return bpy.utils.extension_path_user(__package__, create=True)
+    return bpy.utils.user_resource("DATAFILES", path="sparselens",
+                                   create=True)
+
+
+def folders_unpacked(place):
+    """The folders bin of archives that are unpacked in this place, the newest
+    version first."""
+    return sorted(glob.glob(os.path.join(glob.escape(place), "sparselens-*",
+                                         "bin")), reverse=True)
+
+
+def folders_installed():
+    return folders_unpacked(folder_of_archives())
+
+
 def folders_beside():
-    """The folder bin inside the add-on, and the one of the installation that
-    contains the add-on: PREFIX/share/sparselens/blender/sparselens_blender."""
+    """The folder bin inside the add-on, archives that are unpacked in the
+    add-on or beside it, and the installation that contains the add-on:
+    PREFIX/share/sparselens/blender/sparselens_blender."""
     yield os.path.join(HERE, "bin")
+    yield from folders_unpacked(HERE)
+    yield from folders_unpacked(os.path.dirname(HERE))
     yield os.path.normpath(os.path.join(HERE, *[os.pardir] * 4, "bin"))
 
 
@@ -44,7 +70,8 @@ def candidates(chosen):
     if chosen:
         yield os.path.expanduser(chosen), "the chosen folder"
         return
-    for found, where in ((folders_beside, "beside the add-on"),
+    for found, where in ((folders_installed, "installed"),
+                         (folders_beside, "beside the add-on"),
                          (folders_of_pip, "in pip's package"),
                          (folders_on_path, "on the PATH")):
         for folder in found():
@@ -65,8 +92,9 @@ def find(chosen=""):
         raise NoTool("the folder '%s' does not have ldi-warp and dof-gather: "
                      "choose the one of sparselens' tools" % chosen)
     raise NoTool("ldi-warp and dof-gather are not found, neither beside the "
-                 "add-on nor in pip's package nor on the PATH: name their "
-                 "folder in the add-on's preferences, or by --tools")
+                 "add-on nor in pip's package nor on the PATH: press Install "
+                 "Tools in the add-on's preferences, or name their folder "
+                 "there, or by --tools")
 
 
 def tool(folder, name):

@@ -1,0 +1,50 @@
+"""Unpacks the archive of the tools, which tools/bundle.sh makes, for the
+add-on."""
+
+import os
+import re
+import shutil
+import tarfile
+import tempfile
+
+from . import tools
+
+TOP = re.compile(r"sparselens-[\w.-]+")
+
+
+def top_of(archive, path):
+    """The archive's only folder. Raises ValueError if the archive holds
+    anything but files and folders in it."""
+    tops = set()
+    for member in archive:
+        parts = member.name.split("/")
+        if (".." in parts or not TOP.fullmatch(parts[0])
+                or not (member.isfile() or member.isdir())):
+            raise ValueError("%s is not an archive of sparselens' tools: it "
+                             "has '%s'" % (path, member.name))
+        tops.add(parts[0])
+    if len(tops) != 1:
+        raise ValueError("%s is not an archive of sparselens' tools: it has "
+                         "%d folders" % (path, len(tops)))
+    return tops.pop()
+
+
+def unpack(path, folder):
+    """Unpacks the archive into the folder, in the place of earlier ones.
+    Returns the folder of the tools. Nothing changes if they do not run."""
+    try:
+        with tarfile.open(path) as archive:
+            top = top_of(archive, path)
+            made = tempfile.mkdtemp(prefix=".new-", dir=folder)
+            try:
+                archive.extractall(made)
+                tools.version(os.path.join(made, top, "bin"))
+                for old in tools.folders_unpacked(folder):
+                    shutil.rmtree(os.path.dirname(old))
+                os.replace(os.path.join(made, top), os.path.join(folder, top))
+            finally:
+                shutil.rmtree(made)
+    except (tarfile.TarError, EOFError) as error:
+        raise ValueError("%s is not an archive of sparselens' tools: %s"
+                         % (path, error)) from error
+    return os.path.join(folder, top, "bin")
