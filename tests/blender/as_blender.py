@@ -3,7 +3,8 @@
     python3.11 -m venv env && env/bin/pip install bpy==4.2.0
     tests/blender/bpy.sh env/bin/python BIN_DIR pictures.sh
 
-Accepts the options that those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in order.
+Accepts the options that those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in order, and as the
+last one --command sparselens, for which it enables the installed extension.
 """
 
 import runpy
@@ -20,6 +21,10 @@ def run(words):
             return
         if word in ("-b", "--factory-startup"):
             continue
+        if word == "--command":
+            import addon_utils
+            module = addon_utils.enable("bl_ext.user_default." + next(words) + "_blender")
+            sys.exit(module.command.run_as_command(list(words)) if module else 1)
         if word == "--python-exit-code":
             exit_code = int(next(words))
             continue

@@ -15,13 +15,20 @@ if blender --command extension --help 2>/dev/null | grep -q server-generate; the
     quietly blender --command extension validate "$zip"
     grep -q Success said || fail "validate: $(cat said)"
     quietly blender --command extension install-file -r user_default -e "$zip"
-    enable=
+    enable= command=yes
     echo "extension: $zip is valid and was installed"
+elif blender -b --python-expr 'import bpy, sys; sys.exit(bpy.app.version < (4, 2))' >said 2>&1; then # the module bpy
+    (cd "$source_dir/share/blender" && python3 -m zipfile -c "$scratch/sparselens_blender.zip" sparselens_blender)
+    in_blender --python-expr "import bpy
+assert bpy.ops.extensions.package_install_files(filepath='$PWD/sparselens_blender.zip', repo='user_default') == {'FINISHED'}"
+    enable="import addon_utils
+addon_utils.enable('bl_ext.user_default.sparselens_blender', default_set=True)" command=yes
+    echo "extension: installed"
 else
     python3 -m zipfile -c sparselens_blender.zip "$source_dir/share/blender/sparselens_blender"
     enable="import bpy
 bpy.ops.preferences.addon_install(filepath='$PWD/sparselens_blender.zip')
-bpy.ops.preferences.addon_enable(module='sparselens_blender')"
+bpy.ops.preferences.addon_enable(module='sparselens_blender')" command=
     echo "add-on: installed; this Blender has no extensions"
 fi
 for version in 9.1 9.2 outside broken; do
@@ -76,7 +83,8 @@ for view in center view_0; do alike installed/$view.exr script/$view.exr 90; don
 grep -q "dof-gather (sparselens) [0-9.]*, the chosen folder: $bin" operated || fail "the button Test: $(tail -n 5 operated)"
 grep -q "dof-gather of 9.2, installed: " operated || fail "Install Tools: $(tail -n 5 operated)"
 [ "$(find home -name 'sparselens-9*' -o -name '.new-*' | xargs -n 1 basename)" = sparselens-9.2 ] || fail "Install Tools left $(find home -name 'sparselens-9*')"
-if [ -z "$enable" ]; then
+find home -name sparselens-9.2 | xargs rm -r
+if [ -n "$command" ]; then
     PATH=$bin:$PATH quietly blender -b small.blend --command sparselens -o "$PWD/line.exr" --samples 2 --views 1
     PATH=$bin:$PATH in_blender small.blend -P "$views" -- --picture -o "$PWD/expected.exr" --samples 2 --views 1 --views-folder "$PWD/again"
     picture same line.exr expected.exr >found || fail "--command sparselens makes another picture ($(cat found))"

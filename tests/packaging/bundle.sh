@@ -71,13 +71,10 @@ if [ "$(id -u)" -eq 0 ] && chroot / true 2>/dev/null; then
     mv "$made" "empty/my tools/"
     cp theirs/fence.ldi.exr empty/
     root="/my tools/$(basename "$made")"
-    for picture in picture.exr picture.tif; do
-        exits 0 env -i SPARSELENS_NO_HISTORY=1 "$(command -v chroot)" empty "$root/lib/ld-linux-x86-64.so.2" --library-path "$root/lib" \
-            "$root/libexec/dof-gather" fence.ldi.exr -o "$picture" $([ $picture = picture.exr ] || echo --focus-distance 2.2)
-    done
+    exits 0 env -i SPARSELENS_NO_HISTORY=1 "$(command -v chroot)" empty "$root/lib/ld-linux-x86-64.so.2" --library-path "$root/lib" \
+        "$root/libexec/dof-gather" fence.ldi.exr -o picture.exr
     cmp empty/picture.exr theirs/picture.exr || fail "in an empty root: another picture"
-    cmp empty/picture.tif ours/picture.tif || fail "in an empty root: another TIFF"
-    echo "in an empty root: the same pictures"
+    echo "in an empty root: the same picture"
 else
     echo "skipped: the archive in an empty root: only root may change it"
 fi

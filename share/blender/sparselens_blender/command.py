@@ -243,10 +243,14 @@ def run(arguments, command=False):
 
 
 def run_as_script():
-    if not hasattr(bpy.types.Scene, "sparselens"):
-        panel.register()  # the panel's looks, which the file holds
     after = sys.argv.index("--") + 1 if "--" in sys.argv else len(sys.argv)
-    sys.exit(run(sys.argv[after:]))
+    registers = not hasattr(bpy.types.Scene, "sparselens")
+    if registers:
+        panel.register()  # for the panel's looks, which the file holds
+    code = run(sys.argv[after:])
+    if registers:
+        panel.unregister()  # Blender's module does not end well without
+    sys.exit(code)
 
 
 def run_as_command(arguments):
