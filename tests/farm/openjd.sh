@@ -7,8 +7,22 @@ templates_tool() { python3 "$farm/openjd_template.py" "$@" >log 2>&1 || fail "$*
 templates=("$source_dir"/share/openjd/*.yaml)
 [ "${#templates[@]}" -eq 2 ] || fail "not two templates: ${templates[*]}"
 
-templates_tool check "$farm/jobtemplate-2023-09.json" "${templates[@]}"
+templates_tool check "$farm/jobtemplate-2023-09.json" "${templates[@]}" "$source_dir/share/openjd/blender/template.yaml"
 templates_tool faults "$farm/jobtemplate-2023-09.json" "${templates[@]}"
+
+# The template for Blender gives it each word apart, and nothing in the options is executed (tests/blender runs it).
+mkdir stand-in
+printf '%s\n' '#!/bin/sh' 'printf "%s|" "$@" >>asked' 'echo >>asked' >stand-in/blender
+chmod +x stand-in/blender
+mkdir session
+with_blender() { PATH=$PWD/stand-in:$PATH templates_tool run "$source_dir/share/openjd/blender/template.yaml" session Scene='my shot.blend' Output='//out/####' "$@"; }
+with_blender Frames=-1,2
+with_blender Frames=1 Script=views.py Options='--looks "--cat-eye 1" $(touch run)'
+printf '%s\n' '-b|my shot.blend|--command|sparselens|-o|//out/####|--frames=-1|' '-b|my shot.blend|--command|sparselens|-o|//out/####|--frames=2|' \
+    '-b|my shot.blend|-P|views.py|--|--picture|-o|//out/####|--frames=1|--looks|--cat-eye 1|$(touch|run)|' | cmp - asked || fail "Blender: $(cat asked)"
+rm asked
+SLURM_ARRAY_TASK_ID=7 PATH=$PWD/stand-in:$PATH bash "$source_dir/share/slurm/blender.sh" 'my shot.blend' '//out/####' --samples 4
+echo '-b|my shot.blend|--command|sparselens|-o|//out/####|--frames=7|--samples|4|' | cmp - asked || fail "Slurm and Blender: $(cat asked)"
 
 # Frames -1, 1, 2 and 3, with four equal views.
 PATH=$bin:$PATH

@@ -24,6 +24,7 @@ for template in "$source_dir"/share/openjd/*.yaml; do
     exits 0 openjd run "$template" --extensions TASK_CHUNKING --step gather --run-dependencies -p Views="$PWD/views" \
         -p Output="$PWD/out" -p Frames="$(for n in {1..11}; do printf '%s-%s:1000000,' $n $n; done)12"
 done
+exits 0 openjd check "$source_dir/share/openjd/blender/template.yaml"
 
 cat >submit.py <<'END'
 import runpy, sys
