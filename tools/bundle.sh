@@ -106,7 +106,7 @@ if [ $# -eq 3 ]; then
     exit
 fi
 archive=$out/$name.tar.xz
-tar -ch -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git -C "$here" log -1 --format=%ct 2>/dev/null || echo 0)" "$name" |
+tar -ch --hard-dereference -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git -C "$here" log -1 --format=%ct 2>/dev/null || echo 0)" "$name" |
     xz -T0 >"$archive.partial"
 mv "$archive.partial" "$archive"
 echo "$archive: $(($(stat -c %s "$archive") / 1000000)) MB, $size"

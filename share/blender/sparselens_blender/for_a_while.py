@@ -54,24 +54,26 @@ def file_settings(settings, multilayer, codec):
 
 
 @contextmanager
-def colour_and_depth(layer):
+def colour_and_depth(layer, noisy):
     """Switches off all other passes of a view layer for a while, except its
-    AOVs and light groups, which have no switch."""
+    AOVs and light groups, which have no switch; with `noisy` also except what
+    Cycles rendered before denoising, which brings the denoiser's guides."""
     with ExitStack() as stack:
         for owner in (layer, layer.cycles, layer.eevee):
             names = [prop.identifier for prop in owner.bl_rna.properties
                      if prop.identifier.startswith("use_pass_")
                      or prop.identifier == "denoising_store_passes"]
             stack.enter_context(changed(owner, **{
-                name: name in ("use_pass_combined", "use_pass_z")
+                name: name in ("use_pass_combined", "use_pass_z") or (
+                    noisy and name == "denoising_store_passes")
                 for name in names}))
         yield
 
 
 @contextmanager
-def render_settings(scene, size, multilayer=False, codec="ZIP"):
+def render_settings(scene, size, multilayer=False, codec="ZIP", noisy=False):
     """Sets the output for a while: EXR with depth, this size, only the
-    views."""
+    views; with `noisy`, each view also as it was before denoising."""
     render = scene.render
     with ExitStack() as stack:
         stack.enter_context(changed(
@@ -85,7 +87,10 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
             resolution_x=size[0], resolution_y=size[1]))
         for layer in scene.view_layers:
             stack.enter_context(changed(layer, use_pass_z=True) if multilayer
-                                else colour_and_depth(layer))
+                                else colour_and_depth(layer, noisy))
+            if multilayer and noisy:
+                stack.enter_context(changed(layer.cycles,
+                                            denoising_store_passes=True))
         yield
 
 

@@ -13,14 +13,18 @@ OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
                "aperture_ratio"}
 
 
+def denoises(scene):
+    return scene.render.engine == "CYCLES" and scene.cycles.use_denoising
+
+
 def manner_attributes(scene, layer, multilayer):
     """The frame, and in words how its views are rendered."""
     cycles = scene.render.engine == "CYCLES"
     samples = (scene.cycles.samples if cycles
                else scene.eevee.taa_render_samples)
     words = [scene.render.engine, "%d samples" % samples]
-    if cycles and scene.cycles.use_denoising:
-        words.append("denoised")
+    if denoises(scene):
+        words.append("denoised, noise kept")
     words += [layer] if layer else []
     words += ["all passes"] if multilayer else []
     return {"sparselens:frame": exr_int(scene.frame_current),

@@ -6,6 +6,7 @@ import struct
 from dataclasses import dataclass
 
 from . import tools
+from .exr import channel_list
 from .kept import header_of, is_of_camera
 
 
@@ -101,6 +102,14 @@ def is_newest(path, others):
         return False
 
 
+def noise_of(path, layer):
+    """The name of Cycles' pass with what a denoised view was before; None if
+    it has no such pass."""
+    ending = ".Noisy Image.R"
+    return next((name[:-len(".R")] for name, _ in channel_list(header_of(path))
+                 if name.endswith((layer or "") + ending)), None)
+
+
 def warp_commands(folder, files, layer=None):
     """Commands that make the LDI, none if it is newer than the views. From
     files with several layers it is always made, because the existing one may
@@ -108,8 +117,10 @@ def warp_commands(folder, files, layer=None):
     ldi = files.path("ldi")
     if not layer and is_newest(ldi, files.views):
         return []
+    noisy = noise_of(files.views[0], layer)
     return [[tools.tool(folder, "ldi-warp"), *files.views, "-o", ldi,
-             *(["--layer", layer] if layer else [])]]
+             *(["--layer", layer] if layer else []),
+             *(["--noisy", noisy] if noisy else [])]]
 
 
 def gather_command(folder, ldi, out, options):

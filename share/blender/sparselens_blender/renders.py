@@ -20,7 +20,7 @@ from .for_a_while import (
     changed, finer, only_layer, render_settings, still_camera)
 from .halves import check_halves, halves_steps
 from .kept import (
-    is_kept, manner_attributes, overscan_of_file, windows)
+    denoises, is_kept, manner_attributes, overscan_of_file, windows)
 from .shots import camera_attributes, shot_of, view_placement
 
 AUTO = "auto"  # overscan: as much as the blur needs
@@ -200,8 +200,8 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
     size = [side + 2 * beyond for side in shot.size]
     with ExitStack() as stack:
         if left:
-            stack.enter_context(render_settings(scene, size,
-                                                manner.multilayer))
+            stack.enter_context(render_settings(
+                scene, size, manner.multilayer, noisy=denoises(scene)))
             stack.enter_context(still_camera(scene))
             stack.enter_context(only_layer(scene, manner.layer))
             stack.enter_context(finer(scene, finest))
