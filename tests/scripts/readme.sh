@@ -48,6 +48,7 @@ grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
 cat >>options <<'END'
 --add
 --addc
+--array
 --attrib
 --build
 --command

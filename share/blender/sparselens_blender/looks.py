@@ -1,6 +1,6 @@
 """Looks of real lenses that Blender's camera does not have, as fields of the
-panel. looks.json has their names, ranges and help; tests/blender/looks.py
-makes it of what the tools say."""
+panel. looks.json has their names, ranges and help;
+tests/tools/blender-looks.sh compares it with what the tools say."""
 
 import json
 import os
