@@ -4,7 +4,7 @@
         render: renders the views into VIEWS; take: takes the picture; finish: finishes it; focus D, fstop N, blades N:
         sets the lens; frame N;
         reload FILE.blend: saves the file under this name, and opens it; move: moves the camera; refuse PATTERN: taking
-        the picture gives this error, on one line; refuse-finish PATTERN: finishing it does; stop: begins a render and a
+        the picture gives this error, on one line; refuse-finish, refuse-render PATTERN: finishing and rendering do; stop: begins a render and a
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
         makes frames 1 and 2;
         compose FILE.exr: writes the output of the node group;
@@ -190,6 +190,8 @@ def main(folder, views, *actions):
             refuse(actions.pop(0))
         elif action == "refuse-finish":
             refuse(actions.pop(0), "finish")
+        elif action == "refuse-render":
+            refuse(actions.pop(0), "render_views")
         elif action == "stop":
             stop(addon)
         elif action == "animate":  # into this file, without an ending

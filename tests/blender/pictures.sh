@@ -85,6 +85,14 @@ press small.blend still set views=3 refuse "view_2.exr is not there"
 press small.blend still set supersample=2 refuse "or the picture's size"
 press small.blend still set looks="'--spherical 7'" refuse "dof-gather: .*spherical.*"
 PATH=${PATH#"$bin":} press small.blend still refuse 'ldi-warp and dof-gather are not found, neither beside the add-on'
+if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=24k tmpfs full 2>log; then
+    press small.blend full refuse-render '/full/center.exr: No space left on device'
+    left=$(ls -A full)
+    umount full
+    [ -z "$left" ] || fail "a full disk: left are $left"
+else
+    echo "skipped: the full disk: no tmpfs can be mounted"
+fi
 cp still/view_1.exr whole.exr
 head -c 9000 whole.exr >still/view_1.exr
 press small.blend still refuse 'ldi-warp: .*view_1.exr'

@@ -112,6 +112,17 @@ def set_border(render, box, overscan):
     render.border_max_y = (height - y0 + 0.25) / height
 
 
+def write_whole(partial, path, data):
+    """Writes a file under another name first, so that it is never there in
+    part."""
+    try:
+        with open(partial, "wb") as file:
+            file.write(data)
+        os.replace(partial, path)
+    except OSError as error:  # by write(), it does not name the file
+        raise OSError("%s: %s" % (path, error.strerror)) from error
+
+
 def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
     """Renders the view from lens point u. The file appears complete or not at
     all; with `plain`, its channels get plain names if it holds only colour and
@@ -127,9 +138,7 @@ def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
             data = with_attributes(
                 file.read(), camera_attributes(shot, placement) | attributes,
                 plain)
-        with open(partial, "wb") as file:
-            file.write(data)
-        os.replace(partial, path)
+        write_whole(partial, path, data)
     finally:
         if os.path.exists(partial):
             os.remove(partial)
