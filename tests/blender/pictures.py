@@ -8,7 +8,8 @@
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
         makes frames 1 and 2;
         compose FILE.exr: writes the output of the node group;
-        set NAME=VALUE: sets a field of the panel, such as views=3 or lens_looks.cat_eye=0.5; save FILE.blend
+        set NAME=VALUE: sets a field of the panel, such as views=3 or lens_looks.cat_eye=0.5, or keys it:
+        NAME=VALUE@FRAME; save FILE.blend
 """
 
 import os
@@ -205,7 +206,10 @@ def main(folder, views, *actions):
             while "." in name:
                 group, name = name.split(".", 1)
                 owner = getattr(owner, group)
+            value, _, frame = value.partition("@")
             setattr(owner, name, eval(value))
+            if frame:
+                owner.keyframe_insert(name, frame=int(frame))
         else:
             sys.exit("pictures.py: unknown: %s" % action)
     addon.unregister()

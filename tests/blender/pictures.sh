@@ -54,6 +54,12 @@ same looked/a.exr "the panel's looks on the command line"
 quietly blender --python-exit-code 1 -b looks.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/looked/a.exr" --looks '--cat-eye 1'
 by_hand looked/views "" --cat-eye 1
 same looked/a.exr "--looks in the place of the panel's"
+press small.blend still set lens_looks.cat_eye=0@1 set lens_looks.cat_eye=2@3 save "$PWD/looks.blend"
+quietly blender --python-exit-code 1 -b looks.blend -P "$views" -- --picture --frames 1,3 --samples 4 --views 2 -o "$PWD/looked/#.exr"
+by_hand looked/views .0001 --cat-eye 0
+same looked/0001.exr "a look that is keyed, frame 1"
+by_hand looked/views .0003 --cat-eye 2
+same looked/0003.exr "a look that is keyed, frame 3"
 press small.blend still take reload "$PWD/saved.blend" focus 3.5 take
 by_hand still "" --focus-distance 3.5
 same still/picture.exr "after saving and opening"

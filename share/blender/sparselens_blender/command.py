@@ -12,7 +12,6 @@ import traceback
 import bpy
 
 from . import panel
-from .looks import looks_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -216,8 +215,6 @@ def main(options, say):
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again
-    if options.looks is None:
-        options.looks = looks_of(scene.sparselens)
     made = Pictures(scene, eyes, manner, options, say)
     render_now(scene, made.steps(frames_of(options, scene)))
     print("sparselens:", made.words())

@@ -9,7 +9,6 @@ from . import nodes, tools, unpack
 from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
 from .finishing import Finishing
-from .looks import looks_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -118,7 +117,7 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
             output=os.path.join(folder, name if "#" in name
                                 else name + "####"),
             views_folder=settings.folder, views=settings.views, layer=None,
-            multilayer=settings.multilayer, looks=looks_of(settings),
+            multilayer=settings.multilayer, looks=None,
             finish=(max(settings.finish, 2) if settings.finish_frames
                     else 0),
             tools=chosen_folder())

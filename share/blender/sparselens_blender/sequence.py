@@ -10,6 +10,7 @@ from . import pictures, tools
 from .chain import Chain, Once
 from .for_a_while import changed
 from .halves import check_halves, check_looks, halves_steps
+from .looks import looks_of
 from .renders import (
     Count, folder_of, frame_ending, used_layers, view_steps, views_steps)
 from .shots import shot_of
@@ -55,17 +56,22 @@ class Pictures:
             os.path.basename(options.output)) + self.ending
         self.views = folder_of(options.views_folder or os.path.join(
             os.path.dirname(self.name), "views"))
-        self.looks = options.looks
         self.count, self.made = Count(), 0
         if options.finish:
             check_halves(scene)
-            check_looks(self.looks)
+            check_looks(self.looks())
         if options.multilayer and not options.layer:
             used = used_layers(scene)
             if len(used) > 1:
                 raise ValueError("--multilayer: a picture is of one of the "
                                  "view layers %s: choose it by --layer"
                                  % ", ".join(used))
+
+    def looks(self):
+        """The looks at the current frame: the panel's, which may be keyed,
+        unless others are given."""
+        return (looks_of(self.scene.sparselens) if self.options.looks is None
+                else self.options.looks)
 
     def steps(self, frames):
         """Yields the renders, in words, and chains of tools to run."""
@@ -105,11 +111,14 @@ class Pictures:
         made = out if self.kind == "OPEN_EXR" else files.path("picture")
         layer = self.options.multilayer and self.manner.layer
         gathered = files.path("gathered") if self.options.finish else made
+        looks = self.looks()
+        if self.options.finish:
+            check_looks(looks)
         chain = Chain([
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
                 self.tools, files.path("ldi"), gathered,
-                pictures.lens_options(shot, self.looks)),
+                pictures.lens_options(shot, looks)),
             *([pictures.finish_command(self.tools, files, made)]
               if self.options.finish else [])])
         yield chain
