@@ -43,6 +43,18 @@ exits 0 "${submit[@]}" --views 'the views' --chunk 2 -- --focus-distance 3
 printf '%s\n' 'warp None 1-2' 'warp None 3-3' 'gather warp 1-2' 'gather warp 3-3' | cmp - stdout || fail "layers: $(cat stdout)"
 for number in 0001 0002 0003; do cmp out/picture.$number.exr expected.exr || fail "frame $number"; done
 fails_saying 1 'still holds no view_' "${submit[@]}" --views still
+# Blender makes the pictures of a scene: one layer, each word apart.
+mkdir stand-in
+printf '%s\n' '#!/bin/sh' 'printf "%s|" "$@" >>asked' 'echo >>asked' >stand-in/blender
+chmod +x stand-in/blender
+exits 0 env PATH="$PWD/stand-in:$PATH" "${submit[@]}" --scene 'my shot.blend' --chunk 2 -- --samples 4
+[ "$(cat stdout)" = "$(printf '%s\n' 'picture None 1-2' 'picture None 3-3')" ] || fail "layers: $(cat stdout)"
+exits 0 env PATH="$PWD/stand-in:$PATH" "${submit[@]}" --scene a.blend --script 'the views.py' --chunk 3
+printf '%s\n' '-b|my shot.blend|--command|sparselens|-o|out/####|--frames=1-2|--samples|4|' \
+    '-b|my shot.blend|--command|sparselens|-o|out/####|--frames=3-3|--samples|4|' \
+    '-b|a.blend|-P|the views.py|--|--picture|-o|out/####|--frames=1-3|' | cmp - asked || fail "Blender: $(cat asked)"
+exits 2 "${submit[@]}" --views 'the views' --script x.py
+grep -q 'error: --script needs --scene' stderr || fail "--script: $(cat stderr)"
 for frames in 1-24x2 1-20:4 1,3,5 1-3,7; do
     exits 2 "${submit[@]}" --views 'the views' --frames "$frames" --chunk 2
     grep -q 'needs frames in a row' stderr || fail "--chunk 2 --frames $frames: $(cat stderr)"
