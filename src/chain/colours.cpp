@@ -127,21 +127,33 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
     return output_transform(config, options, space_of(config, metadata));
 }
 
+namespace {
+
+void to_output_space(const ColourOptions &options, Image &image, Imf::Header &header) {
+    const ColourConfig config(options.config);
+    transform_colours(output_transform(config, options, space_of(config, header)), image);
+    header = with_space(config, header, options.output_space);
+}
+
+} // namespace
+
+void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header) {
+    if (!(options.display.empty() && options.view.empty()))
+        throw UsageError("`display` and `view_transform` apply to PNG, JPEG and TIFF, not to " + path);
+    if (!options.output_space.empty()) to_output_space(options, image, header);
+}
+
 std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression, int tiles) {
-    const bool shown = is_shown_picture(path);
-    if (!shown && !(options.display.empty() && options.view.empty()))
-        throw UsageError("`display` and `view_transform` apply to PNG, JPEG and TIFF, not to " + path);
-    if (shown && compression) throw UsageError("`compression` applies to EXR, not to " + path);
-    if (shown && tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
     Imf::Header header = metadata;
-    if (shown || !options.output_space.empty()) {
-        const ColourConfig config(options.config);
-        transform_colours(output_transform(config, options, space_of(config, metadata)), image);
-        header = with_space(config, metadata, options.output_space);
+    if (!is_shown_picture(path)) {
+        to_exr_space(options, path, image, header);
+        return write_flat_exr(path, image, header, compression, tiles);
     }
-    if (!shown) return write_flat_exr(path, image, header, compression, tiles);
+    if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
+    if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
+    to_output_space(options, image, header);
     write_shown_picture(path, image);
     tell({NoticeKind::displayed, path});
     return 0;

@@ -15,6 +15,7 @@
 
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sparselens {
 
@@ -32,6 +33,28 @@ public:
         : in_(in), own_(own), request_(request), work_(work), by_(request.picture) {}
 
     TakenPicture picture(std::optional<GatherWindows> made_before = {}) {
+        prepare(std::move(made_before));
+        if (request_.front_depth)
+            out_.depth = frame_.picture_of(crop(front_depth(ldi()), frame_.needed), depth_of_nothing);
+        gather();
+        write_picture_camera(out_.header, out_.camera);
+        return std::move(out_);
+    }
+
+    TakenPicture without_values() {
+        prepare({});
+        Image bare(ldi().windows, {});
+        bare.windows.data = frame_.needed;
+        out_.image = frame_.picture_of(std::move(bare));
+        out_.image.channels = channels_of_picture();
+        write_picture_camera(out_.header, out_.camera);
+        return std::move(out_);
+    }
+
+private:
+    const Ldi &ldi() const { return frame_.ldi(in_); }
+
+    void prepare(std::optional<GatherWindows> made_before) {
         if (needs_gather(request_.show)) require_channels(in_);
         out_.header = in_.header;
         aim();
@@ -40,15 +63,22 @@ public:
         lens_ = lens_in_gathered(request_.windows, in_, resolve_lens(out_.camera, in_.ldi.windows));
         choose_pixels();
         work_.progress.may_end();
-        if (request_.front_depth)
-            out_.depth = frame_.picture_of(crop(front_depth(ldi()), frame_.needed), depth_of_nothing);
-        gather();
-        write_picture_camera(out_.header, out_.camera);
-        return std::move(out_);
     }
 
-private:
-    const Ldi &ldi() const { return frame_.ldi(in_); }
+    // Those of the picture of one pixel in which there is nothing.
+    std::vector<Channel> channels_of_picture() {
+        Ldi nothing;
+        nothing.windows = windows_of_size(1, 1);
+        nothing.channels = ldi().channels;
+        nothing.values.resize(nothing.channels.size());
+        nothing.begin.assign(2, 0);
+        PictureOptions by = by_;
+        by.holdout = nullptr;
+        const Imath::Box2i &pixel = nothing.windows.data;
+        Progress quiet;
+        return chosen_channels(gather_picture(nothing, lens_, pixel, pixel, by, quiet), request_.channels)
+            .channels;
+    }
 
     void aim() {
         tell_camera(work_.tell, in_.name, in_.camera); // even if the lens is still incomplete
@@ -235,6 +265,11 @@ TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &requ
     if (!with.looks) with.looks = &looks;
     OpenedLdi &in = cache.load(request, work.tell, choose_samples(request, keep, with));
     return Taking(in, keep ? nullptr : &in.ldi, request, with).picture();
+}
+
+TakenPicture describe_picture(LdiCache &cache, const PictureRequest &request, const PictureWork &work) {
+    if (request.show != Show::picture) return take_picture(cache, true, request, work);
+    return Taking(cache.load(request, work.tell), nullptr, request, work).without_values();
 }
 
 } // namespace sparselens

@@ -82,4 +82,8 @@ TakenPicture take_picture(const OpenedLdi &in, GatherWindows made_before, const 
 // samples are held while it is read.
 TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &request, const PictureWork &work);
 
+// What take_picture() will return, before the work of gathering: the image has its windows and channels, and no values.
+// For false colours it is taken with them. The samples are kept.
+TakenPicture describe_picture(LdiCache &cache, const PictureRequest &request, const PictureWork &work);
+
 } // namespace sparselens

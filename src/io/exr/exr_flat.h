@@ -12,6 +12,7 @@
 #include <ImfMultiPartInputFile.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,14 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
 // Returns the number of values beyond the range of half, which became its largest value, 65504.
 std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
                            std::optional<Imf::Compression> compression = {}, int tiles = 0);
+// Returns the bytes of that file; `name` is for messages.
+std::string flat_exr(const std::string &name, const Image &image, const Imf::Header &metadata,
+                     std::optional<Imf::Compression> compression = {}, int tiles = 0);
+
+// The channels of the image by their names in that file.
+std::vector<Channel> channels_in_file(const Image &image, const Imf::Header &metadata);
+// Returns the values that the file has for the pixels of `box`, which must lie within the data window: row by row, each
+// pixel with these channels of the image, in their own types.
+std::string stored_pixels(const Image &image, const Imath::Box2i &box, std::span<const std::size_t> channels);
 
 } // namespace sparselens
