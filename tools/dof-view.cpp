@@ -7,6 +7,7 @@
 #include "harness/tool.h"
 #include "options/gather_options.h"
 #include "viewing/door.h"
+#include "viewing/pipe.h"
 #include "viewing/server.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -59,6 +61,15 @@ void open_browser(const std::string &address) {
     }).detach();
 }
 
+// Takes no other option of the picture, because each request names its own.
+void add_pipe_option(CLI::App &app, bool &pipe) {
+    CLI::Option *option = app.add_flag(
+        "--pipe", pipe,
+        "Serve no page, but answer requests on standard input, for other programs (docs/pipe.md)");
+    for (CLI::Option *other : app.get_options())
+        if (other != option && other != app.get_help_ptr()) option->excludes(other);
+}
+
 void add_options(CLI::App &app, ViewOptions &options) {
     add_picture_making_options(app, options.picture);
     app.add_option("--reference", options.reference, "Picture to compare with (EXR)")->type_name("FILE");
@@ -73,6 +84,7 @@ void add_options(CLI::App &app, ViewOptions &options) {
                    "Folder for pictures that the page saves (default: the page saves nothing)")
         ->type_name("DIR");
     app.add_flag("--open", options.open, "Open the page in the browser");
+    add_pipe_option(app, options.pipe);
     add_examples(app, {{"Look at an LDI: open the address that is printed in a browser", "dof-view ldi.exr"},
                        {"Look at a sequence", "dof-view shot.####.ldi.exr --frames 1-48"},
                        {"... beside the ray-traced picture, at a port of your choice",
@@ -93,7 +105,9 @@ int view(const std::vector<std::string> &words, const FrameCommands &frames) {
                  "dof-view");
     ViewOptions options;
     add_options(app, options);
+    if (std::ranges::find(words, "--pipe") != words.end()) app.get_option("IN")->required(false);
     return run_tool(app, frames.words(0), [&](const ToolContext &tool) {
+        if (options.pipe) return answer_pipe(tool);
         options.presets = lens_presets();
         Viewer viewer(options, words, frames, tool);
         const std::string key = random_key();

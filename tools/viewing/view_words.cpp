@@ -20,7 +20,7 @@ namespace {
 
 // Options that only dof-view has; the flags take no value.
 constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
-constexpr std::array own_flags{"--open", "-v", "--verbose"};
+constexpr std::array own_flags{"--open", "--pipe", "-v", "--verbose"};
 
 const Parameter *parameter_of(const std::string &option) {
     return option.starts_with("--") ? find_parameter(option.substr(2)) : nullptr;
@@ -89,6 +89,17 @@ Words picture_words(const Words &all) {
     });
 }
 
+Words words_set(const Words &given, const std::string &option, const std::string &value) {
+    const std::string name = (option.size() == 1 ? "-" : "--") + option;
+    Words words = without(given, [&](const std::string &other) {
+        const Parameter *of_other = parameter_of(other);
+        return other == name || (of_other && exclude(option, of_other->name));
+    });
+    words.push_back(name);
+    if (!takes_no_value(name)) words.push_back(value);
+    return words;
+}
+
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
                  const Presets &presets) {
     Words words = given;
@@ -100,13 +111,7 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
         if (!settable && !(option == "lens" && value.empty()) && preset == presets.end())
             throw UsageError("the request: a page may not set " + option + " to " + value);
         if (value.empty()) continue;
-        const std::string name = "--" + option;
-        words = without(words, [&](const std::string &other) {
-            const Parameter *of_other = parameter_of(other);
-            return other == name || (of_other && exclude(option, of_other->name));
-        });
-        words.push_back(name);
-        if (!takes_no_value(name)) words.push_back(preset == presets.end() ? value : preset->second);
+        words = words_set(words, option, preset == presets.end() ? value : preset->second);
     }
     return words;
 }

@@ -23,6 +23,7 @@ struct ViewOptions {
     Presets presets = {};
     int port = 0;      // 0: any free port
     bool open = false; // open a browser
+    bool pipe = false; // serve no page (pipe.h)
 };
 
 class Viewer {

@@ -75,6 +75,8 @@ Readers readers_of(std::span<const NamedFiles> commands) {
 
 bool holds_all_frames(std::string_view path) { return path.ends_with(".usda"); }
 
+bool is_input_word(std::string_view word) { return is_among(input_options, word); }
+
 bool is_output_word(std::string_view word) { return word == "-o" || is_among(output_options, word); }
 
 NamedFiles named_files(const CLI::App &parsed) {

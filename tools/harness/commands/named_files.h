@@ -16,6 +16,9 @@ bool is_output_word(std::string_view word);
 // Whether one such output holds what all frames of a range give: the cameras of ldi-plan as USD, keyed.
 bool holds_all_frames(std::string_view path);
 
+// Whether the word is an option whose value is a file that is read: --lens, --depth-file, ...
+bool is_input_word(std::string_view word);
+
 struct NamedFile {
     std::string option, path;
 };

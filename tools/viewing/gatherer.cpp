@@ -1,0 +1,215 @@
+#include "viewing/gatherer.h"
+
+#include "base/error.h"
+#include "chain/words.h"
+#include "harness/history.h"
+#include "harness/one_line.h"
+#include "harness/process.h"
+#include "io/exr/exr_flat.h"
+#include "options/gather_options.h"
+#include "viewing/view_facts.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_descriptions = 64;
+constexpr int most_proxy = 1024; // of dof-gather
+
+// Another text after the file was written again or replaced.
+std::string stamp_of(const std::string &path) {
+    struct stat info {};
+    if (::stat(path.c_str(), &info) != 0) return {};
+    return fmt::format("{}:{}:{}:{}:{}:{}", info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec,
+                       info.st_mtim.tv_nsec, info.st_ctim.tv_nsec);
+}
+
+const char *name_of(PixelType type) {
+    if (type == PixelType::half) return "half";
+    return type == PixelType::uint32 ? "uint" : "float";
+}
+
+// Windows and channels.
+Json layout_of(const TakenPicture &picture) {
+    const Imath::Box2i &data = picture.image.windows.data, &display = picture.image.windows.display;
+    Json channels = Json::array();
+    for (const Channel &channel : channels_in_file(picture.image, picture.header))
+        channels.push_back({{"name", channel.name}, {"type", name_of(channel.type)}});
+    return {{"data", {data.min.x, data.min.y, data.max.x, data.max.y}},
+            {"display", {display.min.x, display.min.y, display.max.x, display.max.y}},
+            {"channels", channels}};
+}
+
+std::vector<std::size_t> chosen(const std::vector<std::string> &names, const TakenPicture &picture) {
+    const std::vector<Channel> there = channels_in_file(picture.image, picture.header);
+    std::vector<std::size_t> all(there.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (names.empty()) return all;
+    std::vector<std::size_t> some;
+    for (const std::string &name : names) {
+        const std::size_t k = find_channel(there, name);
+        if (k == npos) throw UsageError("the request: the picture has no channel " + name);
+        some.push_back(k);
+    }
+    return some;
+}
+
+// Finds the picture of the job and moves it to the front.
+template <typename Kept, typename Job>
+auto find(Kept &kept, const Job &job) {
+    const auto found = std::ranges::find_if(kept, [&](const auto &made) { return made->job == job; });
+    if (found == kept.end()) return typename Kept::value_type();
+    kept.splice(kept.begin(), kept, found);
+    return kept.front();
+}
+
+} // namespace
+
+Gatherer::Gatherer(const ToolContext &tool)
+    : tool_(tool), presets_(lens_presets()), most_bytes_(memory_for_frames(tool.max_memory)) {}
+
+Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
+    Job job;
+    job.words = words_of(request.source, presets_);
+    job.command = command_of(job.words);
+    if (request.level > 0) {
+        const int proxy = job.command.windows.proxy << request.level;
+        job.words = words_set(job.words, "proxy", fmt::to_string(proxy));
+        job.command = command_of(job.words);
+    }
+    for (const std::string &file : files_in(job.words)) job.stamps[file] = stamp_of(file);
+    return job;
+}
+
+// Forgets the LDI if one of the files has changed since they were last read.
+void Gatherer::forget_changed(const Job &job) {
+    constexpr std::size_t most_files = 4096;
+    bool changed = stamps_.size() > most_files;
+    if (changed) stamps_.clear();
+    for (const auto &[file, stamp] : job.stamps) {
+        std::string &before = stamps_[file];
+        changed = changed || (!before.empty() && before != stamp);
+        before = stamp;
+    }
+    if (changed) cache_ = LdiCache();
+}
+
+std::shared_ptr<const Gatherer::Made> Gatherer::make(const Job &job, const Make &make) {
+    forget_changed(job);
+    const auto made = std::make_shared<Made>();
+    const Tell tell = [&](const Notice &notice) {
+        if (level_of(notice) != NoticeLevel::note)
+            made->warnings.push_back(one_line(with_options(words_of(notice))));
+    };
+    made->job = job;
+    made->picture = make({*tool_.progress, tell, &device_});
+    ToolContext gather;
+    gather.command_line = command_line("dof-gather", job.words);
+    append_history(made->picture.header, gather, job.command.history);
+    return made;
+}
+
+std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
+    if (auto found = find(descriptions_, job)) return found;
+    const auto made = make(job, [&](const PictureWork &work) {
+        TakenPicture picture = describe_picture(cache_, job.command, work);
+        const Windows windows = picture.image.windows;
+        Image pixel({windows.display, {windows.data.min, windows.data.min}, windows.pixel_aspect},
+                    picture.image.channels);
+        to_exr_space(job.command.colour, "an EXR picture", pixel, picture.header);
+        picture.image = in_type(std::move(pixel), job.command.type);
+        picture.image.windows.data = windows.data; // without values but for its first pixel
+        return picture;
+    });
+    descriptions_.push_front(made);
+    if (descriptions_.size() > most_descriptions) descriptions_.pop_back();
+    return made;
+}
+
+std::shared_ptr<const Gatherer::Made> Gatherer::taken(const Job &job) {
+    if (auto found = find(pictures_, job)) return found;
+    const auto bytes_of = [](const auto &made) { return made->picture.image.values.size() * sizeof(float); };
+    const auto made = make(job, [&](const PictureWork &work) {
+        TakenPicture picture = take_picture(cache_, true, job.command, work);
+        to_exr_space(job.command.colour, "an EXR picture", picture.image, picture.header);
+        picture.image = in_type(std::move(picture.image), job.command.type);
+        return picture;
+    });
+    pictures_.push_front(made);
+    std::uint64_t bytes = 0;
+    for (const auto &kept : pictures_) bytes += bytes_of(kept);
+    for (; bytes > most_bytes_ && pictures_.size() > 1; pictures_.pop_back())
+        bytes -= bytes_of(pictures_.back());
+    return made;
+}
+
+Gatherer::Answer Gatherer::facts(const Job &job) {
+    const auto made = described(job);
+    forget_changed(job);
+    const Tell quiet = [](const Notice &) {};
+    ShotPicture shot;
+    static_cast<TakenPicture &>(shot) = made->picture;
+    shot.warnings = made->warnings;
+    shot.depths = depth_extent(cache_.load(job.command, quiet).ldi);
+    Json said = lens_facts(shot);
+    said.update(
+        {{"nearest", json_number(shot.depths.nearest)}, {"farthest", json_number(shot.depths.farthest)}});
+    return {std::move(said), {}};
+}
+
+// The number of sizes: each is half of the last one, the smallest has a pixel.
+int Gatherer::levels_of(const Made &made) {
+    const Windows &windows = made.picture.image.windows;
+    const int side = std::max(windows.width(), windows.height()), proxy = made.job.command.windows.proxy;
+    int levels = 1;
+    while (levels < most_levels && side >> levels > 0 && proxy << levels <= most_proxy) ++levels;
+    return levels;
+}
+
+Gatherer::Answer Gatherer::header(const Made &made) {
+    Json said = layout_of(made.picture);
+    const Imath::V2i first = made.picture.image.windows.data.min;
+    Image pixel = made.picture.image;
+    pixel.windows.data = {first, first};
+    const GatherCommand &command = made.job.command;
+    said.update({{"levels", levels_of(made)},
+                 {"command", command_line("dof-gather", made.job.words)},
+                 {"warnings", made.warnings}});
+    return {std::move(said),
+            flat_exr(command.input, pixel, made.picture.header, command.compression, command.tiles)};
+}
+
+Gatherer::Answer Gatherer::pixels(const Made &made, const PipeRequest &request) {
+    const Imath::Box2i &data = made.picture.image.windows.data;
+    const Imath::Box2i box = request.box.value_or(data);
+    if (box.min.x < data.min.x || box.min.y < data.min.y || box.max.x > data.max.x || box.max.y > data.max.y)
+        throw UsageError(
+            fmt::format("the request: the box leaves the picture, whose pixels go from {},{} to {},{}",
+                        data.min.x, data.min.y, data.max.x, data.max.y));
+    Json said = layout_of(made.picture);
+    said["warnings"] = made.warnings;
+    return {std::move(said), stored_pixels(made.picture.image, box, chosen(request.channels, made.picture))};
+}
+
+Gatherer::Answer Gatherer::answer(const PipeRequest &request) {
+    const Job job = job_of(request);
+    switch (request.ask) {
+    case Ask::facts: return facts(job);
+    case Ask::header: return header(*described(job));
+    case Ask::picture:
+    case Ask::tile: break;
+    }
+    return pixels(*taken(job), request);
+}
+
+} // namespace sparselens

@@ -1,0 +1,72 @@
+// Makes the pictures that dof-view --pipe is asked for. Holds the last LDI, and the last pictures as far as a quarter
+// of the memory allows. A picture is made again if one of its files has changed.
+#pragma once
+
+#include "chain/devices.h"
+#include "chain/take_picture.h"
+#include "harness/tool.h"
+#include "viewing/pipe_request.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+class Gatherer {
+public:
+    explicit Gatherer(const ToolContext &tool);
+
+    struct Answer {
+        nlohmann::json said;
+        std::string pixels; // or the file of a header
+    };
+
+    // Throws as dof-gather does.
+    // facts: focus, sharp range, largest CoC and the like (see lens_facts()).
+    // header: windows and channels; `pixels` is an EXR file of one pixel, with the header that dof-gather writes.
+    // picture, tile: the pixels that dof-gather writes (see stored_pixels()), of the data window or of a box in it.
+    Answer answer(const PipeRequest &request);
+
+private:
+    // The work of a request, and what it depends on.
+    struct Job {
+        Words words;
+        std::map<std::string, std::string> stamps; // by file; a file that is written again has another
+        GatherCommand command;
+        bool operator==(const Job &other) const { return words == other.words && stamps == other.stamps; }
+    };
+    struct Made {
+        Job job;
+        TakenPicture picture;
+        std::vector<std::string> warnings;
+    };
+    using Kept = std::list<std::shared_ptr<const Made>>; // the last used first
+
+    Job job_of(const PipeRequest &request) const;
+    std::shared_ptr<const Made> described(const Job &job);
+    std::shared_ptr<const Made> taken(const Job &job);
+    using Make = std::function<TakenPicture(const PictureWork &work)>;
+    std::shared_ptr<const Made> make(const Job &job, const Make &make);
+    Answer facts(const Job &job);
+    static Answer header(const Made &made);
+    static Answer pixels(const Made &made, const PipeRequest &request);
+    static int levels_of(const Made &made);
+    void forget_changed(const Job &job);
+
+    const ToolContext &tool_;
+    Presets presets_;
+    std::uint64_t most_bytes_;                  // of the pictures
+    std::map<std::string, std::string> stamps_; // of the files that were read
+    LdiCache cache_;
+    GatherDevice device_;
+    Kept pictures_, descriptions_;
+};
+
+} // namespace sparselens

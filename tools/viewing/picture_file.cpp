@@ -1,0 +1,219 @@
+#include "viewing/picture_file.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "harness/commands/frames.h"
+#include "harness/commands/named_files.h"
+#include "io/files/json_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Settings = std::map<std::string, std::string>;
+
+constexpr std::uintmax_t largest_file = 1 << 20; // bytes of a .dof file
+constexpr std::size_t most_settings = 128;
+// What a picture for another program has no use for.
+constexpr std::array not_settable{"o", "output", "depth-out", "no-history", "help", "h"};
+
+std::string option_of(const std::string &key) { return key == "focus" ? "focus-distance" : key; }
+
+[[noreturn]] void refuse(const std::string &where, const std::string &key, const std::string &what) {
+    throw UsageError(fmt::format("{}: {}: {}", where, key, what));
+}
+
+// A number, a text, or a pair; empty for other values.
+std::string text_of(const Json &value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return value.dump();
+    const auto is_number = [](const Json &one) { return one.is_number(); };
+    if (value.is_array() && value.size() == 2 && std::ranges::all_of(value, is_number))
+        return value[0].dump() + "," + value[1].dump();
+    return {};
+}
+
+// {"1": 2.5, "24": 4} as the keys of a command line: 1:2.5,24:4; pairs are parted by semicolons.
+std::string keys_of(const Json &object) {
+    std::string keys;
+    for (const auto &[frame, value] : object.items()) {
+        const std::string text = value.is_string() ? "" : text_of(value);
+        if (text.empty()) return {};
+        keys += (keys.empty() ? "" : value.is_array() ? ";" : ",") + frame + ":" + text;
+    }
+    return keys;
+}
+
+std::optional<int> whole_number(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
+    return number;
+}
+
+// The number at the end of a name, after a dot or a low line: 12 of shot.0012.dof.
+std::optional<int> number_at_end(const std::string &file) {
+    const std::string stem = fs::path(file).stem().string();
+    const std::size_t before = stem.find_last_not_of("0123456789");
+    if (before == std::string::npos || std::string_view("._").find(stem[before]) == std::string_view::npos)
+        return {};
+    return whole_number(std::string_view(stem).substr(before + 1));
+}
+
+Settings settings_in_query(const std::string &query) {
+    Settings settings;
+    for (std::size_t from = 0; from < query.size();) {
+        const std::size_t to = std::min(query.find('&', from), query.size());
+        const std::string part = query.substr(from, to - from);
+        const std::size_t equals = part.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw UsageError(fmt::format("the query: '{}' is not KEY=VALUE", part));
+        if (!settings.emplace(option_of(part.substr(0, equals)), part.substr(equals + 1)).second)
+            throw UsageError(fmt::format("the query: {} is given twice", part.substr(0, equals)));
+        from = to + 1;
+    }
+    return settings;
+}
+
+// What a .dof file says: the LDI, and settings.
+Settings read_dof_file(const std::string &path) {
+    std::error_code error;
+    if (fs::file_size(path, error) > largest_file && !error)
+        throw Error(path + ": is larger than 1 MB, which is no .dof file");
+    return settings_in(read_json_file(path), path);
+}
+
+// A path that does not depend on the current folder.
+std::string in_folder(const fs::path &folder, const std::string &path) {
+    return fs::absolute(folder / path).lexically_normal().string();
+}
+
+// The value of an option as the command line has it: files are found, lenses of share/lenses too.
+std::string resolved(const std::string &option, const std::string &value, const fs::path &folder,
+                     const Presets &presets) {
+    if (value.starts_with('@')) return "@" + in_folder(folder, value.substr(1)); // keys
+    if (!is_input_word("--" + option)) return value;
+    std::error_code unknown;
+    const std::string path = in_folder(folder, value);
+    const auto preset = option == "lens" && !fs::exists(path, unknown) ? presets.find(value) : presets.end();
+    return preset == presets.end() ? path : preset->second;
+}
+
+// Sets options in the words of a command line.
+class Setting {
+public:
+    Setting(fs::path folder, const Presets &presets) : folder_(std::move(folder)), presets_(presets) {
+        add_gather_options(known_, unused_);
+    }
+
+    void set(Words &words, const std::string &option, const std::string &value) const {
+        const CLI::Option *known = known_.get_option_no_throw((option.size() == 1 ? "-" : "--") + option);
+        if (!known || known->get_positional() || is_among(not_settable, option))
+            throw UsageError(option + ": is no setting of a picture (see dof-gather --help)");
+        if (known->get_items_expected_max() == 0) return set_flag(words, option, value);
+        if (value.starts_with('-') && value.find_first_of("0123456789.i") != 1)
+            throw UsageError(fmt::format("{}: '{}' is no value", option, value));
+        words = words_set(words, option, resolved(option, value, folder_, presets_));
+    }
+
+private:
+    static void set_flag(Words &words, const std::string &option, const std::string &value) {
+        const bool on = is_among(std::array{"true", "on", "1"}, value);
+        if (!on && !is_among(std::array{"false", "off", "0"}, value))
+            throw UsageError(fmt::format("{}: must be true or false, not '{}'", option, value));
+        std::erase(words, "--" + option);
+        if (on) words.push_back("--" + option);
+    }
+
+    fs::path folder_;
+    const Presets &presets_;
+    GatherCommand unused_;
+    CLI::App known_;
+};
+
+// The words at the frame: a file for a sequence, a value for keys.
+Words at_frame(Words words, const std::optional<int> &frame) {
+    if (frame) words.insert(words.end(), {"--frames", fmt::to_string(*frame)});
+    try {
+        Words result = FrameCommands(words).words(0);
+        if (frame) result.resize(result.size() - 2);
+        return result;
+    } catch (const UsageError &error) {
+        if (frame) throw;
+        throw UsageError(std::string(error.what()) +
+                         " (the request, the query or the name of the .dof file gives the frame)");
+    }
+}
+
+void require_regular_files(const Words &words) {
+    std::error_code unknown;
+    for (const std::string &file : files_in(words))
+        if (const fs::file_status status = fs::status(file, unknown);
+            fs::exists(status) && !fs::is_regular_file(status))
+            throw UsageError(file + ": is not a regular file");
+}
+
+} // namespace
+
+Settings settings_in(const Json &object, const std::string &where) {
+    if (!object.is_object()) throw UsageError(where + ": is not an object of JSON");
+    if (object.size() > most_settings)
+        throw UsageError(fmt::format("{}: has more than {} keys", where, most_settings));
+    Settings settings;
+    for (const auto &[key, value] : object.items()) {
+        std::string text = value.is_object() ? keys_of(value) : text_of(value);
+        if (value.is_boolean()) text = value.get<bool>() ? "true" : "false";
+        if (text.empty())
+            refuse(where, key,
+                   "must be a number, a text, true or false, [X, Y], or an object of values by frame");
+        if (!settings.emplace(option_of(key), text).second) refuse(where, key, "is given twice");
+    }
+    return settings;
+}
+
+Words words_of(const PictureSource &source, const Presets &presets) {
+    const bool is_dof = source.file.ends_with(".dof");
+    Settings settings = is_dof ? read_dof_file(source.file) : Settings{{"ldi", source.file}};
+    const auto ldi = settings.extract("ldi");
+    if (!ldi) refuse(source.file, "ldi", "is missing: it names the LDI");
+    const fs::path folder = is_dof ? fs::path(source.file).parent_path() : fs::path();
+    Words words{in_folder(folder, ldi.mapped())};
+    Settings query = settings_in_query(source.query);
+    std::optional<int> frame = is_dof ? number_at_end(source.file) : std::nullopt;
+    if (const auto given = query.extract("frame")) {
+        frame = whole_number(given.mapped());
+        if (!frame) refuse("the query", "frame", "must be a whole number");
+    }
+    if (source.frame) frame = source.frame;
+    const Setting setting(folder, presets);
+    for (const auto *all : {&std::as_const(settings), &source.settings, &std::as_const(query)})
+        for (const auto &[option, value] : *all) setting.set(words, option, value);
+    words = at_frame(std::move(words), frame);
+    require_regular_files(words);
+    return words;
+}
+
+std::vector<std::string> files_in(const Words &words) {
+    std::vector<std::string> files{words.front()};
+    for (std::size_t i = 1; i + 1 < words.size(); ++i)
+        if (is_input_word(words[i])) files.push_back(words[i + 1]);
+    return files;
+}
+
+} // namespace sparselens

@@ -1,0 +1,34 @@
+// A request to dof-view --pipe: one line, one JSON object,
+// {"ask": "tile", "file": "shot.dof", "query": "fstop=2", "settings": {"focus": 3.4}, "frame": 12, "level": 1, "box": [0, 0,
+// 63, 63], "channels": ["R", "G", "B"]}.
+#pragma once
+
+#include "viewing/picture_file.h"
+
+#include <Imath/ImathBox.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sparselens {
+
+enum class Ask { facts, header, picture, tile };
+
+struct PipeRequest {
+    Ask ask = Ask::facts;
+    PictureSource source = {};
+    int level = 0;                        // 0 to 3: 1, 1/2, 1/4 or 1/8 of the size
+    std::optional<Imath::Box2i> box = {}; // of a tile, EXR coordinates, with the last pixels included
+    std::vector<std::string> channels =
+        {}; // of the pixels, in this order; empty: all, in the order of the header
+};
+
+inline constexpr std::size_t longest_request = 65536; // bytes
+inline constexpr int most_levels = 4;
+
+// Parses a request. Throws UsageError with the reason if the text is invalid.
+PipeRequest parse_pipe_request(std::string_view text);
+
+} // namespace sparselens
