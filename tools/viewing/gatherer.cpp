@@ -84,7 +84,8 @@ Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
     job.command = command_of(job.words);
     if (request.level > 0) {
         const int proxy = job.command.windows.proxy << request.level;
-        job.words = words_set(job.words, "proxy", fmt::to_string(proxy));
+        job.words = words_without(job.words, "proxy");
+        job.words.insert(job.words.end(), {"--proxy", fmt::to_string(proxy)});
         job.command = command_of(job.words);
     }
     for (const std::string &file : files_in(job.words)) job.stamps[file] = stamp_of(file);

@@ -115,30 +115,40 @@ std::string resolved(const std::string &option, const std::string &value, const 
     return preset == presets.end() ? path : preset->second;
 }
 
-// Sets options in the words of a command line.
-class Setting {
+// Turns settings into words of a command line.
+class Setter {
 public:
-    Setting(fs::path folder, const Presets &presets) : folder_(std::move(folder)), presets_(presets) {
+    Setter(fs::path folder, const Presets &presets) : folder_(std::move(folder)), presets_(presets) {
         add_gather_options(known_, unused_);
     }
 
-    void set(Words &words, const std::string &option, const std::string &value) const {
-        const CLI::Option *known = known_.get_option_no_throw((option.size() == 1 ? "-" : "--") + option);
-        if (!known || known->get_positional() || is_among(not_settable, option))
-            throw UsageError(option + ": is no setting of a picture (see dof-gather --help)");
-        if (known->get_items_expected_max() == 0) return set_flag(words, option, value);
-        if (value.starts_with('-') && value.find_first_of("0123456789.i") != 1)
-            throw UsageError(fmt::format("{}: '{}' is no value", option, value));
-        words = words_set(words, option, resolved(option, value, folder_, presets_));
+    // The words with all the settings, which replace earlier words that say the same in another way, but not each
+    // other.
+    Words set(Words words, const Settings &settings) const {
+        Words added;
+        for (const auto &[option, value] : settings) {
+            const Words own = words_of_one(option, value);
+            words = words_without(words, option);
+            added.insert(added.end(), own.begin(), own.end());
+        }
+        words.insert(words.end(), added.begin(), added.end());
+        return words;
     }
 
 private:
-    static void set_flag(Words &words, const std::string &option, const std::string &value) {
-        const bool on = is_among(std::array{"true", "on", "1"}, value);
-        if (!on && !is_among(std::array{"false", "off", "0"}, value))
+    Words words_of_one(const std::string &option, const std::string &value) const {
+        const std::string word = (option.size() == 1 ? "-" : "--") + option;
+        const CLI::Option *known = known_.get_option_no_throw(word);
+        if (!known || known->get_positional() || is_among(not_settable, option))
+            throw UsageError(option + ": is no setting of a picture (see dof-gather --help)");
+        if (known->get_items_expected_max() == 0) { // a flag
+            if (is_among(std::array{"true", "on", "1"}, value)) return {word};
+            if (is_among(std::array{"false", "off", "0"}, value)) return {};
             throw UsageError(fmt::format("{}: must be true or false, not '{}'", option, value));
-        std::erase(words, "--" + option);
-        if (on) words.push_back("--" + option);
+        }
+        if (value.starts_with('-') && value.find_first_of("0123456789.i") != 1)
+            throw UsageError(fmt::format("{}: '{}' is no value", option, value));
+        return {word, resolved(option, value, folder_, presets_)};
     }
 
     fs::path folder_;
@@ -201,9 +211,9 @@ Words words_of(const PictureSource &source, const Presets &presets) {
         if (!frame) refuse("the query", "frame", "must be a whole number");
     }
     if (source.frame) frame = source.frame;
-    const Setting setting(folder, presets);
-    for (const auto *all : {&std::as_const(settings), &source.settings, &std::as_const(query)})
-        for (const auto &[option, value] : *all) setting.set(words, option, value);
+    const Setter setter(folder, presets);
+    for (const Settings *all : {&std::as_const(settings), &source.settings, &std::as_const(query)})
+        words = setter.set(std::move(words), *all);
     words = at_frame(std::move(words), frame);
     require_regular_files(words);
     return words;

@@ -89,15 +89,12 @@ Words picture_words(const Words &all) {
     });
 }
 
-Words words_set(const Words &given, const std::string &option, const std::string &value) {
+Words words_without(const Words &given, const std::string &option) {
     const std::string name = (option.size() == 1 ? "-" : "--") + option;
-    Words words = without(given, [&](const std::string &other) {
+    return without(given, [&](const std::string &other) {
         const Parameter *of_other = parameter_of(other);
         return other == name || (of_other && exclude(option, of_other->name));
     });
-    words.push_back(name);
-    if (!takes_no_value(name)) words.push_back(value);
-    return words;
 }
 
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
@@ -111,7 +108,10 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
         if (!settable && !(option == "lens" && value.empty()) && preset == presets.end())
             throw UsageError("the request: a page may not set " + option + " to " + value);
         if (value.empty()) continue;
-        words = words_set(words, option, preset == presets.end() ? value : preset->second);
+        words = words_without(words, option);
+        words.push_back("--" + option);
+        if (!takes_no_value(words.back()))
+            words.push_back(preset == presets.end() ? value : preset->second);
     }
     return words;
 }

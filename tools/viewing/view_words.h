@@ -25,9 +25,8 @@ Words picture_words(const Words &all);
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
                  const Presets &presets = {});
 
-// The words with the option set: it takes the place of its earlier value, and of options that say the same in another
-// way. The value of a flag is ignored.
-Words words_set(const Words &given, const std::string &option, const std::string &value);
+// The words without the option, and without options that say the same in another way.
+Words words_without(const Words &given, const std::string &option);
 
 // The command that the words describe. Throws UsageError for an invalid command line.
 GatherCommand command_of(const Words &words);
