@@ -65,7 +65,7 @@ void open_browser(const std::string &address) {
 void add_pipe_option(CLI::App &app, bool &pipe) {
     CLI::Option *option = app.add_flag(
         "--pipe", pipe,
-        "Serve no page, but answer requests on standard input, for other programs (docs/pipe.md)");
+        "Serve no page, but answer requests of other programs on standard input (docs/openimageio.md)");
     for (CLI::Option *other : app.get_options())
         if (other != option && other != app.get_help_ptr()) option->excludes(other);
 }

@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::json;
 using OIIO::ImageSpec;
 
-constexpr double most_seconds = 1800;        // for a picture
-constexpr std::size_t most_bytes = 16 << 20; // of pixels at a time
+constexpr double most_seconds = 1800;       // for a picture
+constexpr std::size_t most_bytes = 4 << 20; // of pixels at a time
 constexpr const char *program_name = "dof-view";
 
 // dof-view in $SPARSELENS_BIN, else where it is installed beside this module, else in PATH.

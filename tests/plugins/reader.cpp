@@ -4,7 +4,7 @@
 //   reader threads NAME.dof EXR      eight threads read tiles of all sizes: by an ImageCache, by one ImageInput, and by
 //                                    readers of their own; each equals the EXR file
 //   reader again NAME.dof COMMAND    reads twice, with the shell's COMMAND between: prints whether the pixels changed
-//   reader memory NAME.dof           prints how far the memory grows, in pictures, while it is read row by row
+//   reader memory NAME.dof           prints how far the memory grows, in pictures, while it is read by rows and as a whole
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
@@ -84,7 +84,7 @@ void read_tiles(ImageInput &input, int level, const std::vector<float> &all, int
     const ImageSpec spec = input.spec(0, level);
     const int across = (spec.width + spec.tile_width - 1) / spec.tile_width;
     const int down = (spec.height + spec.tile_height - 1) / spec.tile_height;
-    const TypeDesc half = spec.format;
+    const TypeDesc type = spec.format; // of all channels
     std::vector<char> native(spec.tile_bytes(true));
     std::vector<float> tile(std::size_t(spec.tile_pixels()) * std::size_t(spec.nchannels));
     for (int i = 0; i < across * down; ++i) { // each thread begins elsewhere
@@ -92,7 +92,7 @@ void read_tiles(ImageInput &input, int level, const std::vector<float> &all, int
         const int x = spec.x + number % across * spec.tile_width,
                   y = spec.y + number / across * spec.tile_height;
         require(input.read_native_tile(0, level, x, y, 0, native.data()), "tile: " + input.geterror());
-        require(convert_pixel_values(half, native.data(), TypeFloat, tile.data(), int(tile.size())),
+        require(convert_pixel_values(type, native.data(), TypeFloat, tile.data(), int(tile.size())),
                 "convert");
         require(is_part(tile, all, spec, x, y), "a tile has other pixels");
     }
@@ -141,11 +141,12 @@ double peak_bytes() {
 void test_memory(const std::string &name) {
     const auto input = opened(name);
     const ImageSpec spec = input->spec(0, 0);
-    std::vector<char> row(spec.scanline_bytes(true));
+    std::vector<char> all(spec.image_bytes(true), '\1'); // the program's own memory
     const double before = peak_bytes();
-    for (int round = 0; round < 3; ++round)
-        for (int y = spec.y; y < spec.y + spec.height; ++y)
-            require(input->read_native_scanline(0, 0, y, 0, row.data()), "row: " + input->geterror());
+    for (int y = spec.y; y < spec.y + spec.height; ++y)
+        require(input->read_native_scanline(0, 0, y, 0, all.data()), "row: " + input->geterror());
+    require(input->read_native_scanlines(0, 0, spec.y, spec.y + spec.height, 0, all.data()),
+            "picture: " + input->geterror());
     std::printf("%.3f\n", (peak_bytes() - before) / double(spec.image_bytes(true)));
 }
 

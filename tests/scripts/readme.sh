@@ -9,6 +9,8 @@ documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md lab/results/*.md sha
 scripts=(share/*/*.sh share/*/*.py share/blender/*/*.py share/*/*.yaml)
 cd "$scratch"
 PATH=$bin:$PATH
+OIIO_LIBRARY_PATH=$(dirname "$(find "$bin/../lib" -name dof.imageio.so)")
+export OIIO_LIBRARY_PATH
 
 # blocks DOCUMENT LANGUAGE: the contents of all its fenced blocks in that language.
 blocks() { sed -n "/^\`\`\`$2\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/$1"; }
@@ -67,6 +69,7 @@ cat >>options <<'END'
 --over
 --preset
 --requeue
+--resize
 --source-dir
 --system-site-packages
 --test-dir

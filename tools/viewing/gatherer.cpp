@@ -81,12 +81,12 @@ Gatherer::Gatherer(const ToolContext &tool)
 Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
     Job job;
     job.words = words_of(request.source, presets_);
-    job.command = command_of(job.words);
+    job.command = command_of(job.words, "picture.exr");
     if (request.level > 0) {
         const int proxy = job.command.windows.proxy << request.level;
         job.words = words_without(job.words, "proxy");
         job.words.insert(job.words.end(), {"--proxy", fmt::to_string(proxy)});
-        job.command = command_of(job.words);
+        job.command = command_of(job.words, "picture.exr");
     }
     for (const std::string &file : files_in(job.words)) job.stamps[file] = stamp_of(file);
     return job;

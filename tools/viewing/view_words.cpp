@@ -116,12 +116,12 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
     return words;
 }
 
-GatherCommand command_of(const Words &words) {
+GatherCommand command_of(const Words &words, const std::string &output) {
     GatherCommand options;
     CLI::App app("", "dof-gather");
     add_gather_options(app, options);
     Words all = words;
-    all.insert(all.end(), {"-o", "picture.png"});
+    all.insert(all.end(), {"-o", output});
     std::ranges::reverse(all); // as CLI11 wants them
     try {
         app.parse(std::move(all));

@@ -28,8 +28,9 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
 // The words without the option, and without options that say the same in another way.
 Words words_without(const Words &given, const std::string &option);
 
-// The command that the words describe. Throws UsageError for an invalid command line.
-GatherCommand command_of(const Words &words);
+// The command that the words describe, with a name of the output; OpenImageIO, which loads slowly, is needed for PNG.
+// Throws UsageError for an invalid command line.
+GatherCommand command_of(const Words &words, const std::string &output = "picture.png");
 
 // The words without those that do not apply to the output: an EXR file has no display.
 Words words_for(const Words &words, const std::string &output);
