@@ -141,7 +141,7 @@ echo "$picture" >&5
 exec 5>&-
 ended $gatherer || fail "the gatherer outlives its standard input"
 grep -q '^200 [1-9]' answers || fail "it ends before the answer: $(cat answers)"
-bash -c 'sleep 100 | dof-view --pipe 3<>memory >/dev/null & echo $!; sleep 1; kill -9 $$' >process 2>/dev/null || true
+bash -c 'sleep 15 | dof-view --pipe 3<>memory >/dev/null & echo $!; sleep 1; kill -9 $$' >process 2>/dev/null || true
 ended "$(cat process)" || fail "the gatherer outlives its parent"
 
 # Other programs in the place of dof-view.
