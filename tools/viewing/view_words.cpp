@@ -110,8 +110,7 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
         if (value.empty()) continue;
         words = words_without(words, option);
         words.push_back("--" + option);
-        if (!takes_no_value(words.back()))
-            words.push_back(preset == presets.end() ? value : preset->second);
+        if (!takes_no_value(words.back())) words.push_back(preset == presets.end() ? value : preset->second);
     }
     return words;
 }
