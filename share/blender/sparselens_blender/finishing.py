@@ -7,7 +7,8 @@ from . import pictures, tools
 from .chain import Chain
 from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
-from .renders import folder_of, used_layers, view_steps
+from .one_view import view_steps
+from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
 from .taking import chosen_folder, image_of, show
 
