@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"
+#include "view/speckles.h"
 
 #include <fmt/format.h>
 
@@ -61,8 +62,13 @@ void tell_layers(const Tell &tell, const std::string &path, std::span<const Chan
 void tell_samples(const Tell &tell, const OpenedLdi &in) {
     tell_reading(tell, in.name, in.notes, in.warnings);
     tell_layers(tell, in.name, in.ldi.channels);
+    tell_speckles(tell, in.name, in.speckles);
     if (in.coverage_by_colour) tell({NoticeKind::coverage_by_colour, in.name});
     tell_invalid_values(tell, in.name, in.bad);
+}
+
+void tell_speckles(const Tell &tell, const std::string &path, std::size_t speckles) {
+    if (speckles > 0) tell({NoticeKind::speckles, display_name(path), {speckle_warning(speckles)}});
 }
 
 void tell_camera(const Tell &tell, const std::string &path, const Camera &camera) {

@@ -26,12 +26,14 @@ struct PlacedViews {
     DepthMeaning depth = DepthMeaning::planar;
     bool depth_filtered = false, unpremultiplied = false;            // of the centre view, see OpenedView
     std::vector<InvalidValues> bad = {};                             // per file
+    std::vector<std::size_t> speckles = {};                          // per file
     std::vector<std::vector<std::string>> notes = {}, warnings = {}; // per file
 };
 
 void add(PlacedViews &to, OpenedPackedView &opened) {
     to.views.push_back(std::move(opened.view));
     to.bad.push_back(opened.bad);
+    to.speckles.push_back(opened.speckles);
     to.notes.push_back(std::move(opened.notes));
     to.warnings.push_back(std::move(opened.warnings));
 }
@@ -132,6 +134,7 @@ void tell_views(const Tell &tell, const PlacedViews &in) {
     tell_framings(tell, in.views);
     for (std::size_t i = 0; i < in.notes.size(); ++i) {
         tell_reading(tell, in.views[i].name, in.notes[i], in.warnings[i]);
+        tell_speckles(tell, in.views[i].name, in.speckles[i]);
         tell_invalid_values(tell, in.views[i].name, in.bad[i]);
     }
     tell_layers(tell, in.views[0].name, in.views[0].samples.channels);

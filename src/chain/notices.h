@@ -17,7 +17,8 @@ enum class NoticeKind {
     file_note,
     file_warning,
     coverage_by_colour,
-    clamped, // number of values
+    speckles, // what was done about them, in words
+    clamped,  // number of values
     camera,
     camera_unsure, // the reason; `parameter` settles it
     // Colours.

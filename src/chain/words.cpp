@@ -23,6 +23,9 @@ constexpr std::array table{
     Words{NoticeKind::file_note, note, "{file}: {}"},
     Words{NoticeKind::file_warning, warning, "{file}: {}"},
     Words{NoticeKind::coverage_by_colour, note, "{file}: each colour has its own coverage (AR, AG, AB)"},
+    Words{NoticeKind::speckles, once,
+          "{file}: {}; if it is smoke or fog, render it by itself (docs/renderers.md, \"Smoke and fog\"; in "
+          "Blender, --slices 8)"},
     Words{NoticeKind::clamped, warning, "{file}: {} values beyond the range of half are clamped to 65504"},
     Words{NoticeKind::camera, note, "{file}: {}"},
     Words{NoticeKind::camera_unsure, note, "{file}: {}; `{parameter}` settles it"},

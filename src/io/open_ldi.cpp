@@ -171,8 +171,7 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {
-        if (const std::size_t speckles = settle_speckles_of(opened.ldi))
-            opened.warnings.push_back(speckle_warning(speckles));
+        opened.speckles = settle_speckles_of(opened.ldi);
         const SettledEdges settled = settle_edge_depths(opened.ldi);
         opened.depth_filtered = settled.filtered;
         if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));

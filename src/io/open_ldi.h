@@ -36,6 +36,7 @@ struct OpenedLdi {
     bool deep = true;                          // whether the file is deep; else it is flat with depth
     DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
     bool depth_filtered = false;               // of a flat picture: see edge_depths.h
+    std::size_t speckles = 0;                  // of a flat picture: see OpenedView
     bool unpremultiplied = false;              // in a flat picture: its colours seem to be so
     bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
     std::vector<std::string> notes, warnings;  // see LdiFile

@@ -21,6 +21,7 @@ OpenedPackedView described(PackedView view, Opened &opened) {
             opened.bad,
             opened.depth,
             opened.depth_filtered,
+            opened.speckles,
             opened.unpremultiplied,
             std::move(opened.notes),
             std::move(opened.warnings)};

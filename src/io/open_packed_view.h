@@ -17,7 +17,9 @@ struct OpenedPackedView {
     Camera camera;
     InvalidValues bad;
     DepthMeaning depth = DepthMeaning::planar;
-    bool depth_filtered = false, unpremultiplied = false;
+    bool depth_filtered = false;
+    std::size_t speckles = 0;
+    bool unpremultiplied = false;
     std::vector<std::string> notes = {}, warnings = {};
 };
 

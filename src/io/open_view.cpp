@@ -59,8 +59,7 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
     opened.unpremultiplied =
         !options.depth.picture.unpremultiplied && looks_unpremultiplied(fall_at_edges(flat_pixels(view)));
     opened.bad = sanitize(view);
-    if (const std::size_t speckles = settle_speckles(view))
-        opened.warnings.push_back(speckle_warning(speckles));
+    opened.speckles = settle_speckles(view);
     const SettledEdges settled = settle_edge_depths(view);
     opened.depth = options.depth.meaning;
     opened.depth_filtered = settled.filtered;

@@ -22,6 +22,7 @@ struct OpenedView {
     InvalidValues bad;                                  // what was repaired
     DepthMeaning depth = DepthMeaning::planar;          // how the file's depths were read
     bool depth_filtered = false;                        // see SettledEdges
+    std::size_t speckles = 0;                           // depths of speckles replaced (view/speckles.h)
     bool unpremultiplied = false;                       // whether its colours seem to be so
     std::vector<std::string> notes = {}, warnings = {}; // see FlatFile
 

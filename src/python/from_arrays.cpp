@@ -173,7 +173,7 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return ready_view(std::move(file), name, options); }),
         position};
-    warn_of(name, view.in.warnings, view.in.bad);
+    warn_of(name, view.in.warnings, view.in.speckles, view.in.bad);
     return view;
 }
 
@@ -196,7 +196,7 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
                     std::vector<std::span<float>>(file.ldi.values.begin(), file.ldi.values.end()));
     auto ldi =
         job<OpenedLdi>(py::none(), [&](Progress &) { return ready_ldi(std::move(file), name, options); });
-    warn_of(name, ldi.warnings, ldi.bad);
+    warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
     return ldi;
 }
 

@@ -1,6 +1,8 @@
 #include "python/objects.h"
 
 #include "base/text.h"
+#include "chain/file_notices.h"
+#include "chain/words.h"
 #include "io/camera/camera_read.h"
 #include "python/arrays.h"
 #include "python/from_arrays.h"
@@ -300,8 +302,10 @@ void warn(const std::string &text) {
     if (PyErr_WarnEx(PyExc_UserWarning, with_keywords(text).c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad) {
+void warn_of(const std::string &name, const std::vector<std::string> &warnings, std::size_t speckles,
+             const InvalidValues &bad) {
     for (const std::string &warning : warnings) warn(name + ": " + warning);
+    tell_speckles([](const Notice &notice) { warn(words_of(notice)); }, name, speckles);
     if (bad.any()) warn(name + ": " + bad.text());
 }
 

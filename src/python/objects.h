@@ -46,7 +46,8 @@ std::string with_keywords(const std::string &message);
 
 // Raises Python warnings (UserWarning) about what was repaired in a file and what is probably a mistake.
 void warn(const std::string &text);
-void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad);
+void warn_of(const std::string &name, const std::vector<std::string> &warnings, std::size_t speckles,
+             const InvalidValues &bad);
 
 void bind_objects(py::module_ &module);
 void bind_verbs(py::module_ &module);

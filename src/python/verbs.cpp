@@ -38,7 +38,7 @@ ViewObject open_view(const py::object &path, const py::kwargs &given) {
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return open_view(name, options, otherwise); }),
         position};
-    warn_of(name, view.in.warnings, view.in.bad);
+    warn_of(name, view.in.warnings, view.in.speckles, view.in.bad);
     return view;
 }
 
@@ -48,7 +48,7 @@ LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
     const OpenOptions options = file_options(keywords);
     keywords.done();
     auto ldi = job<OpenedLdi>(py::none(), [&](Progress &) { return open_ldi(name, options); });
-    warn_of(name, ldi.warnings, ldi.bad);
+    warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
     return ldi;
 }
 
@@ -58,7 +58,7 @@ PictureObject open_picture(const py::object &path, const py::kwargs &given) {
     const PictureChoice picture = picture_choice(keywords);
     keywords.done();
     auto file = job<FlatFile>(py::none(), [&](Progress &) { return read_flat_exr(name, picture); });
-    warn_of(name, file.warnings, {});
+    warn_of(name, file.warnings, 0, {});
     return {std::move(file.image), std::move(file.header)};
 }
 

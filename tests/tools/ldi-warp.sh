@@ -230,3 +230,14 @@ done
 picture make grey.exr 96x54 R=0.5 G=0.5 B=0.5 A=1 Z=4
 exits 0 "$warp" grey.exr --view 0.06,0 grey.exr --view -0.06,0 grey.exr --focal-length 36 --sensor-width 36 -o x.exr
 silent "one colour at one depth"
+
+# Pixels of a wall that have the depth of the sky, as in smoke: one warning for a range of frames and all its views, with
+# what to do; the wall is whole.
+words=(R=0.5 G=0.5 B=0.5 A=1 Z=4)
+for x in {10..80..10}; do for y in 10 30 40; do words+=("fill=1x1+$x+$y" Z=1e10); done; done
+for frame in 1 2; do for view in speckled beside; do picture make $view.000$frame.exr 96x54 "${words[@]}"; done; done
+exits 0 "$warp" speckled.####.exr --view 0.06,0 beside.####.exr --focal-length 36 --sensor-width 36 -o wall.####.exr --frames 1-2
+[ "$(wc -l <stderr)" -eq 1 ] || fail "speckles: $(cat stderr)"
+said 'warning: speckled.0001.exr: 24 pixels have the depth of the sky .*; if it is smoke or fog, render it by itself \(docs/renderers.md'
+"$bin/dof-gather" wall.0002.exr --focal-length 36 --sensor-width 36 --fstop inf --focus-distance 4 --depth-out wall_depth.exr -o x.exr
+[ "$(picture pixel wall_depth.exr 10,10 Z)" = 4 ] || fail "a speckle keeps its depth: $(picture pixel wall_depth.exr 10,10 Z)"
