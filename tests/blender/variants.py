@@ -152,6 +152,54 @@ def make_layers(scene, camera):
     scene.render.film_transparent = True
 
 
+def volume_cube(scene, name, kind, density, centre, size, colour):
+    """A cube that holds nothing but an even volume."""
+    bpy.ops.mesh.primitive_cube_add(size=1, location=centre)
+    cube = bpy.context.object
+    cube.name, cube.scale = name, size
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    nodes = made.node_tree.nodes
+    nodes.clear()
+    volume = nodes.new("ShaderNodeVolume" + kind)
+    volume.inputs["Color"].default_value = (*colour, 1)
+    volume.inputs["Density"].default_value = density
+    made.node_tree.links.new(volume.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Volume"])
+    cube.data.materials.append(made)
+
+
+def make_soot(scene, camera):
+    """Black volumes of 0.5 a unit from the depths 5 to 7, and of 0.2 from 10 to 13, before the wall alone."""
+    for thing in list(scene.objects):
+        if thing.type == "MESH" and thing.name != "Plane.001":
+            bpy.data.objects.remove(thing)
+    for name, density, near, far in ("near", 0.5, 5, 7), ("far", 0.2, 10, 13):
+        volume_cube(scene, name, "Absorption", density, (0, (near + far) / 2, 0.8), (40, far - near, 40), (0, 0, 0))
+
+
+def make_smoke(scene, camera):
+    """Smoke with the balls and the floor in it; the near ball stands before it."""
+    volume_cube(scene, "smoke", "Scatter", 0.25, (0, 6.5, 1), (8, 5, 4), (0.9, 0.9, 0.9))
+
+
+def make_sheet(scene, camera):
+    """A sheet that covers half of what is behind it, in the right half of the picture. It lights and shades nothing."""
+    bpy.ops.mesh.primitive_plane_add(size=2, location=(1.15, 2, 0.8), rotation=(math.pi / 2, 0, 0))
+    sheet = bpy.context.object
+    sheet.name = "Thin sheet"
+    sheet.visible_diffuse = sheet.visible_glossy = sheet.visible_shadow = False
+    made = bpy.data.materials.new("sheet")
+    made.use_nodes = True
+    nodes, links = made.node_tree.nodes, made.node_tree.links
+    nodes.clear()
+    mix, out = nodes.new("ShaderNodeMixShader"), nodes.new("ShaderNodeOutputMaterial")
+    mix.inputs[0].default_value = 0.5
+    links.new(nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+    links.new(nodes.new("ShaderNodeEmission").outputs[0], mix.inputs[2])
+    links.new(mix.outputs[0], out.inputs["Surface"])
+    sheet.data.materials.append(made)
+
+
 def make_homeless(scene, camera):
     scene.camera = None
 

@@ -23,7 +23,7 @@ def modules_of(path):
     base = type("Base", (), {})
     sys.modules["bpy"] = types.SimpleNamespace(
         types=types.SimpleNamespace(PropertyGroup=base, Operator=base, Panel=base, AddonPreferences=base), props=Anything(), app=Anything())
-    sys.modules["mathutils"] = types.SimpleNamespace(Matrix=object)
+    sys.modules["mathutils"] = types.SimpleNamespace(Matrix=object, Vector=object)
     sys.path.insert(0, path)
     return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks", "chain")]
 

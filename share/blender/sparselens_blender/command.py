@@ -12,6 +12,7 @@ import traceback
 import bpy
 
 from . import panel
+from .layers import names_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -81,6 +82,14 @@ def add_options(add, exclusive):
     add("--eye", metavar="NAME",
         help="view of a stereo scene, e.g. left (default: all of them, the "
              "eye's suffix in the names of the files)")
+    add("--slices", type=natural_number, default=0, metavar="N",
+        help="render the volumes by themselves, in N slices of depth: "
+             "volume.exr, a deep EXR, for ldi-cluster. The views are then "
+             "without volumes (Cycles)")
+    add("--layers", type=names_of, default=(), metavar="NAME,...",
+        help="render these see-through objects or collections each as a "
+             "layer of its own: NAME/center.exr, NAME/view_0.exr, ... The "
+             "other views are then without them")
     add("--finish", type=natural_number, default=0, metavar="N",
         help="also render two pictures through the camera's lens, N samples "
              "a pixel in all, which share no noise: rays_1.exr and "
@@ -119,6 +128,9 @@ def check_options(parser, options):
     if options.supersample > 1 and options.lens_views:
         parser.error("argument --lens-views: their average is the picture: "
                      "render them without --supersample")
+    if options.lens_views and (options.slices or options.layers):
+        parser.error("argument --lens-views: their average is the picture: "
+                     "render them without --slices and --layers")
     if options.finish == 1:
         parser.error("argument --finish: two renders take two samples")
     if options.picture:
@@ -211,7 +223,8 @@ def main(options, say):
         scene.eevee.taa_render_samples = options.samples
     manner = Manner(options.overscan, options.multilayer, options.layer,
                     options.supersample,
-                    0 if options.picture else options.finish)
+                    0 if options.picture else options.finish,
+                    slices=options.slices, layers=options.layers)
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again

@@ -31,12 +31,16 @@ def exr_matrix(matrix):
                                          for x in row])
 
 
-def read_header(data):
-    """The attributes of a single-part EXR, {name: (type, bytes)}, and the
-    position after the header."""
+DEEP = 0x800  # a bit of the version
+
+
+def read_header(data, deep=False):
+    """The attributes of a flat or deep EXR of one part, {name: (type, bytes)},
+    and the position after the header."""
     magic, version = struct.unpack_from("<2i", data)
-    if magic != 20000630 or version & 0x1a00:
-        raise ValueError("not a flat scanline EXR of one part")
+    if magic != 20000630 or version & 0x1a00 != deep * DEEP:
+        raise ValueError("not a %s scanline EXR of one part"
+                         % ("deep" if deep else "flat"))
     at, attributes = 8, {}
     while data[at] != 0:
         name_end = data.index(b"\0", at)

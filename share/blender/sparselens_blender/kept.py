@@ -6,6 +6,7 @@ import struct
 from dataclasses import replace
 
 from .exr import exr_box, exr_int, exr_text, read_header
+from .layers import folder_named
 from .shots import camera_attributes, view_placement
 
 # The lens may change afterwards, but it must not become wider than the views.
@@ -17,8 +18,9 @@ def denoises(scene):
     return scene.render.engine == "CYCLES" and scene.cycles.use_denoising
 
 
-def manner_attributes(scene, layer, multilayer):
-    """The frame, and in words how its views are rendered."""
+def manner_attributes(scene, layer, multilayer, more=""):
+    """The frame, and in words how its views are rendered; `more`: further
+    words."""
     cycles = scene.render.engine == "CYCLES"
     samples = (scene.cycles.samples if cycles
                else scene.eevee.taa_render_samples)
@@ -27,8 +29,25 @@ def manner_attributes(scene, layer, multilayer):
         words.append("denoised, noise kept")
     words += [layer] if layer else []
     words += ["all passes"] if multilayer else []
+    words += [more] if more else []
     return {"sparselens:frame": exr_int(scene.frame_current),
             "sparselens:rendered": exr_text(", ".join(words))}
+
+
+def part_attributes(manner):
+    """What belongs to the picture besides the views: the deep view of the
+    volumes, and the folders of see-through layers."""
+    values = {"sparselens:volume": "volume" if manner.slices else "",
+              "sparselens:layers": " ".join(map(folder_named, manner.layers))}
+    return {name: exr_text(value) for name, value in values.items() if value}
+
+
+def parts_of_file(path):
+    """Of a centre view, the folders of see-through layers, and the name of the
+    deep view of volumes, if there are any."""
+    header = header_of(path) or {}
+    return [header.get("sparselens:" + name, ("", b""))[1].decode().split()
+            for name in ("layers", "volume")]
 
 
 def windows(size, overscan):
@@ -40,14 +59,14 @@ def windows(size, overscan):
                                   height + 2 * overscan)}
 
 
-def header_of(path):
+def header_of(path, deep=False):
     """The attributes of an EXR file; None if it cannot be read."""
     try:
         with open(path, "rb") as file:
             for most in 1 << 16, -1:  # few headers are longer
                 file.seek(0)
                 try:
-                    return read_header(file.read(most))[0]
+                    return read_header(file.read(most), deep)[0]
                 except (IndexError, struct.error):
                     continue
                 except ValueError:
@@ -92,6 +111,14 @@ def is_kept(path, shot, u, others):
     header = header_of(path)
     return header is not None and is_of_camera(header, shot, u) and all(
         header.get(name) == value for name, value in others.items())
+
+
+def is_kept_volume(path, shot, others):
+    """Whether the deep view of the volumes in this file can stay."""
+    header = header_of(path, deep=True)
+    return (header is not None and is_of_camera(header, shot, wider=True)
+            and all(header.get(name) == value
+                    for name, value in others.items()))
 
 
 def is_same_render(path, shot, others):

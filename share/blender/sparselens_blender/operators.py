@@ -9,6 +9,7 @@ from . import nodes, tools, unpack
 from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
 from .finishing import Finishing
+from .layers import names_of
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
@@ -25,7 +26,14 @@ def frames_of(scene):
 
 def manner_of(settings):
     return Manner(AUTO if settings.overscan_auto else settings.overscan,
-                  settings.multilayer, supersample=settings.supersample)
+                  settings.multilayer, supersample=settings.supersample,
+                  slices=settings.slices, layers=names_of(settings.layers))
+
+
+def views_in(settings):
+    """The number of views of a frame and an eye, with the deep one."""
+    return ((settings.views + 1) * (1 + len(names_of(settings.layers)))
+            + (settings.slices > 0))
 
 
 class Renders(BitByBit):
@@ -94,7 +102,7 @@ class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
             frames = frames_of(scene)
         views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
         self.folder, self.count = folder_of(settings.folder), Count()
-        self.most = len(frames) * len(views) * len(eyes)
+        self.most = len(frames) * views_in(settings) * len(eyes)
         self.steps = views_steps(
             scene, frames, self.folder, lambda frame: views, eyes,
             manner_of(settings), self.count, settings.animation, self.warn)
@@ -129,7 +137,7 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
                                       "switch Keep Views off")
         self.count, self.steps = (self.pictures.count,
                                   self.pictures.steps(frames))
-        self.most = len(frames) * (settings.views + 1) * len(eyes)
+        self.most = len(frames) * views_in(settings) * len(eyes)
 
     def done(self, context):
         self.report({"INFO"}, self.pictures.words())

@@ -44,6 +44,14 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
     finish_frames: bpy.props.BoolProperty(
         name="Finish Frames",
         description="Render Animation finishes its pictures, too")
+    slices: bpy.props.IntProperty(
+        name="Slices of Volumes", description="Render volumes by themselves, "
+        "in this many slices of depth; 0: with everything else (Cycles)",
+        default=0, min=0, max=64)
+    layers: bpy.props.StringProperty(
+        name="See-Through", description="Objects or collections, separated "
+        "by commas, that are rendered each as a layer of its own, such as "
+        "nets and films")
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
@@ -122,7 +130,8 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.prop(settings, "overscan_auto")
         if not settings.overscan_auto:
             layout.prop(settings, "overscan")
-        for name in "supersample", "multilayer", "animation":
+        for name in ("supersample", "slices", "layers", "multilayer",
+                     "animation"):
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
         layout.prop(settings, "live")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from . import tools
 from .exr import channel_list
-from .kept import header_of, is_of_camera
+from .kept import header_of, is_of_camera, parts_of_file
 
 
 @dataclass
@@ -19,13 +19,17 @@ class Files:
     ending: str  # .exr, or the frame's number and .exr
     rim: int     # number of views from the rim of the lens
 
-    def path(self, name):
-        return os.path.join(self.folder, name + self.suffix + self.ending)
+    def path(self, name, part=""):
+        return os.path.join(self.folder, part,
+                            name + self.suffix + self.ending)
+
+    def views_of(self, part):
+        return [self.path("center", part)] + [
+            self.path("view_%d" % number, part) for number in range(self.rim)]
 
     @property
     def views(self):
-        return [self.path("center")] + [self.path("view_%d" % number)
-                                        for number in range(self.rim)]
+        return self.views_of("")
 
 
 def frame_of(header):
@@ -111,16 +115,28 @@ def noise_of(path, layer):
 
 
 def warp_commands(folder, files, layer=None):
-    """Commands that make the LDI, none if it is newer than the views. From
-    files with several layers it is always made, because the existing one may
-    be of another layer."""
-    ldi = files.path("ldi")
-    if not layer and is_newest(ldi, files.views):
+    """Commands that make the LDI, none if it is newer than the views. The
+    centre view says whether see-through layers and a deep view of the volumes
+    belong to it. From files with several layers the LDI is always made,
+    because the existing one may be of another layer."""
+    layers, volumes = parts_of_file(files.path("center"))
+    ldi, volumes = files.path("ldi"), [files.path(name) for name in volumes]
+    parts = ["", *layers]
+    if not layer and is_newest(ldi, volumes + [
+            view for part in parts for view in files.views_of(part)]):
         return []
+    apart = [files.path("part", part) for part in parts]
+    several = layers or volumes
     noisy = noise_of(files.views[0], layer)
-    return [[tools.tool(folder, "ldi-warp"), *files.views, "-o", ldi,
-             *(["--layer", layer] if layer else []),
-             *(["--noisy", noisy] if noisy else [])]]
+    commands = [
+        [tools.tool(folder, "ldi-warp"), *files.views_of(part), "-o",
+         made if several else ldi, *(["--layer", layer] if layer else []),
+         *(["--noisy", noisy] if noisy else [])]
+        for part, made in zip(parts, apart)]
+    if several:
+        commands.append([tools.tool(folder, "ldi-cluster"), *apart, *volumes,
+                         "-o", ldi])
+    return commands
 
 
 def gather_command(folder, ldi, out, options):

@@ -15,12 +15,16 @@ import bpy
 
 from .chain import Chain
 from .checks import check_scene
+from .exr import exr_int
 from .for_a_while import finer, only_layer, render_settings, still_camera
 from .halves import check_halves, halves_steps
 from .kept import (
-    denoises, is_kept, manner_attributes, overscan_of_file, windows)
+    denoises, is_kept, is_kept_volume, manner_attributes, overscan_of_file,
+    part_attributes, windows)
+from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
-from .shots import shot_of
+from .shots import camera_attributes, shot_of
+from .volumes import check_slices, without_volumes
 
 AUTO = "auto"  # overscan: as much as the blur needs
 
@@ -34,6 +38,8 @@ class Manner:
     layer: str = None        # the only view layer to render; None: all
     supersample: int = 1     # pixels per picture pixel, across and down
     finish: int = 0          # samples per pixel, both lens renders together
+    slices: int = 0          # of volumes; 0: the views show the volumes
+    layers: tuple = ()       # names of see-through things
     keep: bool = False       # keep unchanged views of an earlier run
 
 
@@ -84,13 +90,57 @@ def layer_to_render(scene, name, multilayer, say=warn):
 
 
 def eye_steps(scene, folder, ending, views, eye, manner, count):
-    """The views of one eye at the current frame."""
-    def path_of(name):
-        return os.path.join(folder, name + eye.file_suffix + ending)
+    """All renders of one eye at the current frame."""
+    def path_in(part):
+        return lambda name: os.path.join(folder, part.folder,
+                                         name + eye.file_suffix + ending)
 
+    parts = parts_of(scene, manner.layers)
+    for part in parts:
+        os.makedirs(os.path.join(folder, part.folder), exist_ok=True)
+        with ExitStack() as stack:
+            stack.enter_context(shown_alone(scene, part))
+            if manner.slices:
+                stack.enter_context(without_volumes())
+            yield from part_steps(scene, path_in(part), views, eye, manner,
+                                  part, count)
+    if manner.slices and "center" in [name for name, _, _ in views]:
+        yield from volume_steps(scene, path_in(parts[0]), eye, manner,
+                                parts[0], count)
+    if manner.finish:
+        yield from halves_steps(scene, path_in(parts[0]), eye, manner,
+                                view_steps)
+
+
+def volume_steps(scene, path_of, eye, manner, rest, count):
+    """The deep view of the volumes, with the windows of the centre view."""
+    from .slices import slice_steps  # needs NumPy, which takes long to load
+    center, path = path_of("center"), path_of("volume")
+    shot = shot_of(scene, eye, manner.supersample)
+    beyond = overscan_of_file(center)
+    attributes = manner_attributes(
+        scene, manner.layer, False, rest.words) | windows(
+            shot.size, beyond) | {"sparselens:slices": exr_int(manner.slices)}
+    if manner.keep and is_kept_volume(path, shot, attributes):
+        count.keep([path])
+        return
+    with only_layer(scene, manner.layer), finer(scene, manner.supersample):
+        yield from slice_steps(
+            scene, path, center, shot, beyond, manner, rest.unseen,
+            attributes | camera_attributes(shot, shot.placement))
+    count.rendered += 1
+
+
+def part_steps(scene, path_of, views, eye, manner, part, count):
+    """The views of a part of the scene."""
     shot = shot_of(scene, eye, manner.supersample)
     finest = manner.supersample
-    attributes = manner_attributes(scene, manner.layer, manner.multilayer)
+    words = [part.words] if part.words else []
+    words += ["without volumes"] if manner.slices else []
+    attributes = manner_attributes(scene, manner.layer, manner.multilayer,
+                                   ", ".join(words))
+    if not part.alone:
+        attributes |= part_attributes(manner)
     pixels = manner.overscan
     if pixels == AUTO:
         center = path_of("center")
@@ -99,7 +149,8 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
         else:
             with only_layer(scene, manner.layer):
                 needed = yield from overscan_steps(
-                    scene, folder, shot, used_layers(scene))
+                    scene, os.path.dirname(center), shot,
+                    used_layers(scene))
             pixels = math.ceil(needed / finest)
             print("sparselens: frame %d%s: overscan of %d pixels" % (
                 scene.frame_current, eye.name and ", " + eye.name, pixels))
@@ -122,8 +173,6 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
             yield from view_steps(scene, path, shot, u, beyond, box,
                                   attributes, plain=not manner.multilayer)
             count.rendered += 1
-    if manner.finish:
-        yield from halves_steps(scene, path_of, eye, manner, view_steps)
 
 
 def frame_ending(frame, several):
@@ -141,6 +190,10 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     if manner.finish:
         check_halves(scene)
     manner.layer = layer_to_render(scene, manner.layer, manner.multilayer, say)
+    if manner.slices:
+        check_slices(scene, [manner.layer] if manner.layer
+                     else used_layers(scene))
+    parts_of(scene, manner.layers)
     os.makedirs(folder, exist_ok=True)
     before = scene.frame_current
     try:
