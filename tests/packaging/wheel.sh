@@ -33,7 +33,7 @@ done
 "$python" -m venv --system-site-packages --without-pip used
 logged build/bin/python "${pip[@]}" --python used/bin/python install --no-index --no-deps "${wheels[0]}"
 used() { env -i PATH="$scratch/used/bin" HOME="$scratch" SPARSELENS_NO_HISTORY=1 "$@"; }
-for tool in dof-compare dof-finish dof-gather ldi-cluster ldi-plan ldi-warp; do
+for tool in dof-compare dof-finish dof-gather dof-match ldi-cluster ldi-plan ldi-warp; do
     exits 0 used $tool --version
     [ "$(cat stdout)" = "$tool (sparselens) $version" ] || fail "$tool --version says $(cat stdout)"
     [ -s used/share/man/man1/$tool.1 ] || fail "no manual page of $tool"

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-stages='plan warp dof finish'
+stages='plan warp dof finish match'
 
 # FILE NAME...: sizes of stored or processed blocks, sentinels, bounds of arithmetic and its constants, defaults and
 # tables of options.
@@ -60,6 +60,10 @@ warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
 warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
+match/blocks.cpp first_tint nuisances
+match/blocks.h most_changes
+match/refine_lens.cpp coc_change first_motion scale_change softness_change
+match/smooth_keys.cpp second
 finish/cells.h run_length
 finish/classes.cpp bins
 finish/error_estimate.cpp fastest slowest

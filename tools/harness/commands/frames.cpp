@@ -165,7 +165,7 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
                                                                        : KeyKind::number;
     word.keys_from_file = keyed && word.value.starts_with('@');
     if (word.keys_from_file)
-        word.keys = read_keys(word.value.substr(1), kind);
+        word.keys = read_keys(word.value.substr(1), kind, option);
     else if (option.starts_with('-'))
         word.keys = parse_keys(word.value, kind);
     if (word.keys && keyed) word.keyed_option = option;

@@ -4,6 +4,7 @@
 #include "io/files/text_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -64,10 +65,37 @@ bool add_keys(Keys &keys, std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r";
+    constexpr std::string_view blank = " \t\r\n";
     const std::size_t first = text.find_first_not_of(blank);
     if (first == text.npos) return {};
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+// The name of the option in a file of JSON: "focus_distance" for --focus-distance.
+std::string json_name(std::string_view option) {
+    std::string name(option.substr(std::min(option.find_first_not_of('-'), option.size())));
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+// The value as a list of keys has it: dof-match writes "inf" for an infinite number. Empty for other values.
+std::string key_text(const std::string &frame, const nlohmann::json &value) {
+    if (value.is_number()) return frame + ":" + value.dump();
+    return value.is_string() ? frame + ":" + value.get<std::string>() : "";
+}
+
+Keys json_keys(const std::string &path, const std::string &text, KeyKind kind, std::string_view option) {
+    const std::string name = json_name(option);
+    const nlohmann::json file = nlohmann::json::parse(text, nullptr, false);
+    if (file.is_discarded()) throw UsageError(path + ": is neither a list of keys nor valid JSON");
+    const auto found = file.find(name);
+    if (found == file.end() || !found->is_object() || found->empty())
+        throw UsageError(fmt::format("{}: has no \"{}\" with a value for each frame", path, name));
+    Keys keys{kind, {}};
+    for (const auto &[frame, value] : found->items())
+        if (!add_key(keys, key_text(frame, value)))
+            throw UsageError(fmt::format("{}: \"{}\" has no number at frame {}", path, name, frame));
+    return keys;
 }
 
 } // namespace
@@ -78,16 +106,18 @@ std::optional<Keys> parse_keys(std::string_view text, KeyKind kind) {
     return keys;
 }
 
-Keys read_keys(const std::string &path, KeyKind kind) {
+Keys read_keys(const std::string &path, KeyKind kind, std::string_view option) {
+    const std::string text = read_text_file(path);
+    if (trimmed(text).starts_with('{')) return json_keys(path, text, kind, option);
     Keys keys{kind, {}};
-    std::istringstream lines(read_text_file(path));
+    std::istringstream lines(text);
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
-        const std::string_view text = trimmed(line);
-        if (text.empty() || text.starts_with('#')) continue;
-        if (!add_keys(keys, text))
-            throw UsageError(fmt::format("{}: line {} is '{}', not {}", path, number, text,
+        const std::string_view list = trimmed(line);
+        if (list.empty() || list.starts_with('#')) continue;
+        if (!add_keys(keys, list))
+            throw UsageError(fmt::format("{}: line {} is '{}', not {}", path, number, list,
                                          kind != KeyKind::number ? "FRAME:X,Y (e.g. 1:320,180)"
                                                                  : "FRAME:VALUE (e.g. 1:5.0)"));
     }

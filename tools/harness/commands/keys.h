@@ -26,8 +26,10 @@ struct Keys {
 std::optional<Keys> parse_keys(std::string_view text, KeyKind kind);
 
 // Reads keys from a text file: lists as above, one or more lines; empty lines and lines that start with # are ignored.
-// Throws UsageError with the file and the line if a line is not a list; Error if the file cannot be read.
-Keys read_keys(const std::string &path, KeyKind kind);
+// A file of JSON, as dof-match writes it, has numbers for several options: {"focus_distance": {"1": 5.0}, ...}; `option`
+// (--focus-distance) says which to read. Throws UsageError with the file and the line if a line is not a list, or if the
+// JSON has no numbers for the option; Error if the file cannot be read.
+Keys read_keys(const std::string &path, KeyKind kind, std::string_view option = {});
 
 // The value at a frame as a word of a command line; pixels are rounded to whole ones.
 std::string word_at_frame(const Keys &keys, int frame);

@@ -1,0 +1,55 @@
+// Finds the lens of a plate: the focus distance and the f-number at which the picture of an LDI is blurred as the plate
+// is. The plate shows what the LDI shows, from the same camera. It may differ in exposure, grade, tone curve, grain,
+// softness and compression, and show other things in front in some places.
+#pragma once
+
+#include "../base/image.h"
+#include "../base/progress.h"
+#include "../io/lens_file.h"
+#include "../io/open_ldi.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+// A value, and the range that holds it with a certainty of 90 %.
+struct MatchedValue {
+    double value = 0, low = 0, high = 0;
+};
+
+// The lens of one plate.
+struct MatchedLens {
+    MatchedValue focus_distance;       // scene units, (0, inf]
+    MatchedValue lens_radius;          // scene units
+    std::optional<MatchedValue> fstop; // if the focal length is known
+    double softness = 0;               // of the whole plate: standard deviation, pixels of the plate
+    double matched_share = 0;    // of the blocks that show something: those that show what the LDI shows
+    double largest_coc = 0;      // in the region, pixels of the plate
+    double coc_deviation = 0;    // standard deviation of the CoC at the middle depth, pixels of the plate
+    double focus_deviation = 0;  // standard deviation of 1 / focus_distance
+    double radius_deviation = 0; // standard deviation of the radius's natural logarithm
+    std::string doubt = {};      // why this is not the lens of the plate; empty: it is
+    Image fit = {}; // the gathered picture beside the plate, in grey, tone-mapped as they were compared
+};
+
+struct MatchRequest {
+    std::optional<Imath::Box2i> region = {};     // pixels of the plate; empty: all
+    LensValues lens = {};                        // override the file's values
+    GivenLooks looks = {};                       // the shape of the lens
+    bool match_focus = true, match_fstop = true; // otherwise that value of the lens is right
+    const MatchedLens *near = nullptr;           // where to look first: the lens of the frame before
+};
+
+// Throws Error if the plate has another size or no colours, UsageError if a value of the lens is unknown or the region
+// is empty.
+MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
+                       const MatchRequest &request, Progress &progress);
+
+// The lenses of neighbouring frames, smooth over time. A frame with a doubt gets the values of its neighbours. At least
+// one must have none.
+std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames);
+
+} // namespace sparselens

@@ -1,0 +1,122 @@
+#include "chain/match_pictures.h"
+
+#include "base/error.h"
+#include "base/subpixels.h"
+#include "chain/channels.h"
+#include "deep/flatten.h"
+#include "deep/front_samples.h"
+#include "deep/proxy.h"
+#include "lens/perceptive_depth.h"
+#include "match/tuning.h"
+#include "view/resolve_looks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float opaque = 0.99f;
+
+// The colours of `box`, scene-linear.
+Colours colours_in(const Image &image, const Imath::Box2i &box, const std::string &name) {
+    const auto rgb = find_rgb(image.channels);
+    if (!all_found(rgb)) throw Error(name + ": it lacks R, G or B");
+    Colours result{Grid(box), {}};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < result.grid.size(); ++i) {
+            const Imath::V2i at = result.grid.pixel(i);
+            result.rgb[k].push_back(image.at(rgb[k], at.x, at.y));
+        }
+    return result;
+}
+
+} // namespace
+
+Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.name), by_(by) {
+    const int factor = by * match.across;
+    if (factor > 1)
+        ldi_ = proxy(match.in.ldi, factor,
+                     {.scale = *perceptive_scale(match.camera, match.in.ldi.windows, true),
+                      .tolerance = layer_tolerance_px * factor});
+    else
+        ldi_ = match.in.ldi;
+    keep_channels(ldi_, "rgba");
+    radius_ = resolve_radius(match.camera);
+    focal_px_ = resolve_focal_px(match.camera, ldi_.windows);
+    const Imath::Box2i plate_data = reduced(match.plate.windows.data, by);
+    box_ = common_pixels(common_pixels(reduced(match.region, by), ldi_.windows.data), plate_data);
+    choose_gathers(match, is_final);
+    const Image small = by == 1 ? match.plate : mean_of_subpixels(match.plate, {by, {}}, plate_data);
+    pictures.plate = brightness(tone_mapped(colours_in(small, box_, match.plate_name)));
+    find_usable();
+    find_depths();
+    pictures.gather = [this](double coc, double scale, bool exactly) { return gather(coc, scale, exactly); };
+}
+
+double Reduced::depth_scale() const { return perceptive_scale(radius_, focal_px_); }
+
+void Reduced::choose_gathers(const Match &match, bool is_final) {
+    const GivenLooks &looks = match.request.looks;
+    quickly_.gather.lens.looks =
+        resolve_looks(look_values_over(read_looks(looks, match.camera.fstop).values, match.camera.looks),
+                      match.camera, lens(1, 1), ldi_.windows);
+    quickly_.gather.views_radius = views_radius(match.camera);
+    exactly_ = quickly_;
+    quickly_.gather.lens.lens_samples =
+        is_final ? MatchTuning::derivative_points : MatchTuning::search_points;
+    if (is_final)
+        exactly_.gather.lens.quality = Quality::final;
+    else
+        exactly_.gather.lens.lens_samples = MatchTuning::refine_points;
+}
+
+ThinLens Reduced::lens(double focus, double scale) const {
+    return {.radius = radius_ * scale,
+            .focal_px = focal_px_,
+            .focus = focus > 0 ? depth_of_perceptive(depth_scale(), focus)
+                               : std::numeric_limits<double>::infinity(),
+            .pixel_aspect = ldi_.windows.pixel_aspect};
+}
+
+// Pixels that the LDI covers and the plate has.
+void Reduced::find_usable() {
+    const Image flat = flatten(ldi_);
+    const std::size_t alpha = find_channel(flat.channels, "A");
+    for (std::size_t i = 0; i < pictures.plate.values.size(); ++i) {
+        const Imath::V2i at = pictures.plate.grid.pixel(i);
+        const bool covered = alpha == npos || flat.at(alpha, at.x, at.y) >= opaque;
+        pictures.usable.push_back(covered && std::isfinite(pictures.plate.values[i]) ? 1 : 0);
+    }
+}
+
+void Reduced::find_depths() {
+    std::vector<double> depths;
+    for (std::size_t i = 0; i < pictures.usable.size(); ++i)
+        if (const float z = front_depth(ldi_, pictures.plate.grid.pixel(i)); pictures.usable[i] && z > 0)
+            depths.push_back(perceptive_depth(depth_scale(), double(z)));
+    if (depths.empty()) throw UsageError("`region` contains no pixel that the LDI covers; give another");
+    std::ranges::sort(depths);
+    const auto at = [&](double share) { return depths[std::size_t(share * double(depths.size() - 1))]; };
+    pictures.far = at(0.02);
+    pictures.near = at(0.98);
+    pictures.middle = (pictures.far + pictures.near) / 2;
+}
+
+Colours Reduced::gather(double coc, double scale, bool exactly) const {
+    const double focus = std::max(pictures.middle + coc / scale, 0.0);
+    Progress none;
+    const PictureOptions &by = exactly ? exactly_ : quickly_;
+    return colours_in(gather_picture(ldi_, lens(focus, scale), box_, box_, by, none), box_, name_);
+}
+
+Imath::Box2i common_pixels(const Imath::Box2i &a, const Imath::Box2i &b) {
+    const Imath::Box2i box({std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
+                           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)});
+    if (box.isEmpty()) throw UsageError("`region` contains no pixel that both pictures show");
+    return box;
+}
+
+} // namespace sparselens

@@ -1,0 +1,41 @@
+// Compares a plate with a gathered picture, block by block. In each block the plate is fitted by
+//
+//     plate = a + b V + c V^2 + d V_x + e V_y + f (R - V) + g (B - V)
+//
+// where R, G and B are those of the gathered picture and V is their mean. So exposure, grade, tone curve and a shift of
+// a fraction of a pixel do not count. What remains is blur. A block of other content (an actor) is not fitted by any blur and says nothing.
+#pragma once
+
+#include "match/colours.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// How the gathered picture changes with what is searched for: the CoC at the middle depth, the size of the lens, and the softness of the
+// whole picture; then softness along x more than y, and along the diagonals, as motion has it.
+inline constexpr std::size_t most_changes = 5;
+using Changes = std::array<double, most_changes>;
+
+struct BlockFit {
+    int pixels = 0;                                // that were compared; 0: too few
+    double before = 0;                             // sum of squares of the plate about its mean
+    double left = 0;                               // sum of squares that the fit leaves
+    double shift_x = 0, shift_y = 0;               // of the plate against the gathered picture, pixels
+    Changes pull{};                                // -1/2 the derivative of `left` by each change
+    std::array<Changes, most_changes> stiffness{}; // half its second derivative
+
+    // The log likelihood that this is the same picture, relative to that of any other.
+    double likelihood() const;
+    // The variance of the plate about the fit, per pixel.
+    double noise() const;
+};
+
+// `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: [pixel], 0: not compared.
+std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable,
+                                 const Colours &gathered, std::span<const Colours> changes);
+
+} // namespace sparselens

@@ -1,0 +1,33 @@
+// The pictures that dof-match compares, tone-mapped (base/tone_map.h), so that noise and errors count everywhere as they
+// do on a display.
+#pragma once
+
+#include "base/grid.h"
+
+#include <array>
+#include <vector>
+
+namespace sparselens {
+
+// A grey picture: the brightness of a plate, in [0, 1), or a derivative.
+struct Grey {
+    Grid grid;
+    std::vector<float> values; // [pixel]
+};
+
+// A gathered picture.
+struct Colours {
+    Grid grid;
+    std::array<std::vector<float>, 3> rgb; // [channel][pixel]
+};
+
+// Blurs scene-linear colours by a Gaussian of this variance, square pixels, as a soft lens or film does. Pixels beyond
+// the border repeat it.
+Colours softened(const Colours &linear, double variance);
+
+Colours tone_mapped(Colours linear);
+
+// The mean of R, G and B of tone-mapped colours.
+Grey brightness(const Colours &of);
+
+} // namespace sparselens

@@ -1,0 +1,64 @@
+// Finds the lens whose gathered picture is blurred as a plate is.
+//
+// The CoC is a linear function of perceptive depth P (lens/perceptive_depth.h): c(P) = coc - scale (P - middle). The
+// search compares gathered pictures over a grid of both numbers, then follows the best ones by Gauss-Newton steps, whose
+// derivatives are differences of gathered pictures.
+#pragma once
+
+#include "match/blocks.h"
+
+#include <functional>
+#include <optional>
+
+namespace sparselens {
+
+// What is searched for, in pixels of the compared pictures.
+struct BlurGuess {
+    double coc = 0;        // signed CoC at the middle depth
+    double scale = 1;      // radius of the lens, relative to that of the LDI, > 0
+    double softness = 0.3; // of the whole plate: variance, square pixels
+};
+
+// Two pictures to compare, and the depths that they show.
+struct Comparison {
+    Grey plate;                           // tone-mapped
+    std::vector<std::uint8_t> usable;     // [pixel]
+    double near = 0, middle = 0, far = 0; // perceptive depths for scale 1, pixels
+    // The gathered picture, scene-linear; `exactly`, or quickly with more noise.
+    std::function<Colours(double coc, double scale, bool exactly)> gather;
+};
+
+// Values that are known beforehand.
+struct KnownLens {
+    std::optional<double> focus = {}; // its perceptive depth for scale 1, pixels
+    std::optional<double> scale = {};
+};
+
+// Half the range of perceptive depths, at least half a pixel.
+double half_range(const Comparison &pictures);
+
+// The gathered picture as a plate of this softness shows it.
+Colours as_plate(const Colours &gathered, double softness);
+
+struct LensFit {
+    BlurGuess guess;
+    double likelihood = 0;                          // the sum over the blocks
+    std::array<Changes, most_changes> covariance{}; // from how much the blocks differ from each other
+    Changes motion{};                               // of the plate: the two last changes
+    std::vector<BlockFit> blocks;
+    Colours shown; // the gathered picture, softened and tone-mapped
+};
+
+// The guesses that a search may begin with, the best first; no two lie on one hill.
+std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &known);
+
+// Follows a guess to the nearest best fit.
+LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps);
+
+// The sum over the blocks.
+double likelihood_of(const std::vector<BlockFit> &blocks);
+
+// How much better `a` fits than `b`, in standard deviations of what the blocks say.
+double lead(const LensFit &a, const LensFit &b);
+
+} // namespace sparselens

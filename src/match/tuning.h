@@ -1,0 +1,66 @@
+// Thresholds of dof-match, with units. Where a measurement exists, the comment quotes it.
+#pragma once
+
+#include <array>
+
+namespace sparselens {
+
+struct MatchTuning {
+    // Side of the blocks in which the plate is compared with a gathered picture, pixels of the compared pictures.
+    static constexpr int compared_block_px = 16;
+    // The least share of a block's pixels that must be comparable.
+    static constexpr double least_share = 0.6;
+    // The plate's values are rounded and compressed: a fit is never better than this, rms of tone-mapped values.
+    static constexpr double least_error = 0.001;
+
+    // A block shows something if a fit, in some place, explains this share of its variance.
+    static constexpr double explained = 0.3;
+    // How far the plate is moved to compare blocks with other places, pixels.
+    static constexpr std::array<std::array<int, 2>, 8> other_places{
+        {{23, 5}, {-23, -7}, {7, 22}, {-5, -23}, {37, -31}, {-35, 33}, {51, 45}, {-53, -43}}};
+
+    // How large the factors of colours are expected to be: they are drawn to 0 by as many times the noise.
+    static constexpr double tint_ridge = 10;
+    // The least number of blocks that show something, and the least share of them that match. 12 plates of other shots
+    // match in 13 to 17 %, plates of the shot with an actor over a third of them in 44 % and more.
+    static constexpr int least_textured = 6;
+    static constexpr double least_matched = 0.3;
+    // The least variance of blur by motion, square pixels of the compared pictures. Motion over 9 pixels has 6.
+    static constexpr double motion_variance = 3;
+    // A picture whose circles of confusion are all smaller is in focus, pixels of the plate.
+    static constexpr double all_in_focus_px = 0.75;
+    // The widest interval, to each side, that is a result: pixels of CoC and stops.
+    static constexpr double widest_coc_px = 1.5, widest_stops = 0.6;
+    // Two guesses that are this far apart, pixels of CoC, must differ in likelihood by as many standard deviations.
+    static constexpr double apart_px = 1.5, least_lead = 1.5;
+    // Besides the spread of the blocks: by how much neighbouring blocks, which are not independent, widen the
+    // deviation; and the error of gathered pictures, in compared pixels of CoC and as a share of the radius. On plates
+    // without grain, grade and softness the radius is 0 to 6 % too small, the more the less blur there is.
+    static constexpr double joint_blocks = 2, gather_coc_px = 0.1, gather_share = 0.03;
+
+    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight;
+    // the mean squared distance of values from the curve, in deviations; values farther away count less.
+    static constexpr double stiffest = 1e6, least_stiff = 1e-4, smooth_excess = 1, far_deviations = 3;
+    static constexpr int robust_passes = 4;
+
+    // Widths to which pictures are reduced for the search and for the final fit, pixels.
+    static constexpr int search_width = 140, final_width = 360;
+    // Distance of neighbouring guesses of the search, pixels of CoC at the reduced size, or as a share of the range of
+    // the CoC if that is more.
+    static constexpr double search_step = 1.25, search_share = 0.1;
+    // The widest lens of the search, relative to the LDI's; the narrowest blurs by this many reduced pixels.
+    static constexpr double widest = 1.3, narrowest_px = 0.5;
+    // Lens points of the gathered pictures: for the search, and for the derivatives of the final fit, whose picture
+    // has final quality. A draft's noise would pass for softness and make the lens 2 to 5 % smaller.
+    static constexpr int search_points = 32, refine_points = 64, derivative_points = 64;
+    // How many of the best guesses are refined, and how often.
+    static constexpr int refined_guesses = 3, search_steps = 6, final_steps = 9, next_frame_steps = 4;
+    // Changes of the CoC for which derivatives are computed, and the largest step, pixels.
+    static constexpr double derivative_px = 0.5, largest_step_px = 2;
+    // The step of the softness's variance for its derivative, and its range, square pixels.
+    static constexpr double softness_step = 0.2, most_softness = 9;
+    // The fit is over when the CoC moves by less, pixels.
+    static constexpr double settled_px = 0.04;
+};
+
+} // namespace sparselens

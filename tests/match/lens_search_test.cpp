@@ -1,0 +1,81 @@
+#include "match/evidence.h"
+#include "match/lens_search.h"
+#include "match/patterns.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+// A plate with another tone curve and exposure.
+Colours graded(Colours plate) {
+    for (std::vector<float> &plane : plate.rgb)
+        for (float &v : plane) v = 0.02f + 0.7f * std::pow(v, 0.8f);
+    return plate;
+}
+
+LensFit found(const Comparison &pictures, const KnownLens &known) {
+    LensFit best;
+    best.likelihood = -1;
+    for (const BlurGuess &guess : search_lens(pictures, known))
+        if (LensFit fit = refine_lens(pictures, known, guess, 8); fit.likelihood > best.likelihood)
+            best = std::move(fit);
+    return best;
+}
+
+TEST(LensSearch, finds_the_focus_and_the_lens_of_a_graded_plate) {
+    for (const auto &[coc, scale] : {std::pair{0.0, 0.6}, {2.0, 0.8}, {-1.5, 0.4}}) {
+        const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, coc, scale)));
+        const LensFit fit = found(pictures, {});
+        EXPECT_NEAR(fit.guess.coc, coc, 0.1);
+        EXPECT_NEAR(fit.guess.scale, scale, 0.02);
+    }
+}
+
+TEST(LensSearch, tells_softness_of_the_whole_from_the_lens) {
+    const Colours soft = softened(test::blurred_waves(128, 64, 1, 0.7), 0.8);
+    const LensFit fit = found(test::slope_before(graded(soft)), {});
+    EXPECT_NEAR(fit.guess.softness, 0.8, 0.15);
+    EXPECT_NEAR(fit.guess.scale, 0.7, 0.03);
+}
+
+TEST(LensSearch, keeps_what_is_known) {
+    const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1.4, 0.7)));
+    const LensFit by_scale = found(pictures, {.scale = 0.7});
+    EXPECT_EQ(by_scale.guess.scale, 0.7);
+    EXPECT_NEAR(by_scale.guess.coc, 1.4, 0.1);
+    const LensFit by_focus = found(pictures, {.focus = 9});
+    EXPECT_NEAR(by_focus.guess.coc / by_focus.guess.scale, 2, 1e-9);
+    EXPECT_NEAR(by_focus.guess.scale, 0.7, 0.02);
+}
+
+// The covariance comes from the spread between blocks, so noise widens it.
+TEST(LensSearch, noise_widens_the_spread) {
+    Colours noisy = graded(test::blurred_waves(128, 64, 1, 0.7));
+    const LensFit before = found(test::slope_before(noisy), {});
+    std::uint32_t state = 1;
+    for (std::vector<float> &plane : noisy.rgb)
+        for (float &v : plane) {
+            state = state * 1664525u + 1013904223u;
+            v += 0.05f * (float(state >> 8) / float(1 << 24) - 0.5f);
+        }
+    const LensFit after = found(test::slope_before(noisy), {});
+    EXPECT_GT(after.covariance[1][1], 4 * before.covariance[1][1]);
+    EXPECT_NEAR(after.guess.scale, 0.7, 4 * std::sqrt(after.covariance[1][1]) + 0.02);
+}
+
+TEST(Evidence, a_picture_matches_itself_and_not_another) {
+    const Colours shown = test::waves(192, 96);
+    const Colours other = test::colours(192, 96, [](double x, double y, std::size_t k) {
+        return 0.5 + 0.3 * std::sin(0.013 * x * y + double(k)) * std::cos(0.31 * x);
+    });
+    const auto usable = test::all_usable(shown.grid);
+    EXPECT_EQ(find_evidence(brightness(shown), usable, shown).matched_share(), 1);
+    const Evidence wrong = find_evidence(brightness(other), usable, shown);
+    EXPECT_LT(wrong.matched_share(), 0.3);
+    EXPECT_EQ(
+        find_evidence({shown.grid, std::vector<float>(shown.grid.size(), 0.2f)}, usable, shown).textured, 0);
+}
+
+} // namespace
+} // namespace sparselens

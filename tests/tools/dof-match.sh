@@ -1,0 +1,100 @@
+#!/bin/bash
+# dof-match from the shell: the hidden lens of ray-traced plates, the keys that dof-gather reads, the effect of each
+# option, and plates that cannot be matched.
+. "$(dirname "$0")/check.sh"
+match=$bin/dof-match
+answers_help dof-match ldi.exr plate.exr
+
+exits 0 "$bin/dof-trace" fence --size 160x90 --spp 16 --lens-radius 0.16 -o fence
+exits 0 "$bin/ldi-warp" fence/center.exr fence/view_{0..3}.exr -o ldi.exr
+plate() { # plate NAME FOCUS RADIUS
+    exits 0 "$bin/dof-trace" fence --size 160x90 --views 0 --spp 1 --reference 96 --focus-distance "$2" \
+        --lens-radius "$3" -o traced
+    # Another exposure, a tone curve, JPEG: nothing but blur is compared.
+    oiiotool traced/reference.exr --ch R,G,B --mulc 0.6,0.7,0.65 --powc 0.45 --clamp:max=1 -d uint8 \
+        --compression jpeg:85 -o graded.jpg
+    oiiotool graded.jpg -d half -o "$1"
+}
+# holds NAME LEAST MOST: a value that --json printed lies between the two.
+value() { grep -A1 "\"$1\": {" stdout | grep -o '"value": [0-9.]*' | cut -d' ' -f2; }
+holds() { awk "BEGIN { exit !($(value "$1") >= $2 && $(value "$1") <= $3) }" || fail "$1 is $(value "$1"), not $2 to $3"; }
+
+# R F is 25.6 pixels: at 3 units, the perceptive depth is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
+plate plate.exr 3 0.11
+exits 0 "$match" ldi.exr plate.exr --json -o keys.json --show fit.png --stats stats.json
+holds focus_distance 2.8 3.25
+holds lens_radius 0.1045 0.116
+grep -q '"tool":"dof-match"' stats.json || fail "--stats: $(cat stats.json)"
+oiiotool --info fit.png | grep -q ' 320 x *90,' || fail "--show: $(oiiotool --info fit.png)"
+radius=$(value lens_radius)
+
+# One value may be known.
+exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3
+holds focus_distance 3 3
+holds lens_radius 0.1045 0.116
+exits 0 "$match" ldi.exr plate.exr --json --fit focus --lens-radius 0.11
+holds focus_distance 2.8 3.25
+holds lens_radius 0.11 0.11
+exits 0 "$match" ldi.exr plate.exr --region 40,10,100,70
+grep -q '^ *frame  focus distance' stdout || fail "the table: $(cat stdout)"
+
+exits 0 "$match" ldi.exr plate.exr --json --fit focus --fstop 0.17
+holds fstop 0.17 0.17
+
+# The camera: with twice the focal length in pixels, half the lens blurs as much.
+exits 0 "$match" ldi.exr plate.exr --json --focal-length 72 --lens-radius 0.08
+holds lens_radius 0.052 0.058
+exits 0 "$match" ldi.exr plate.exr --json --sensor-width 18 --lens-radius 0.08
+holds lens_radius 0.052 0.058
+exits 0 "$match" ldi.exr plate.exr --json --scene-unit 0.1 --focus-distance 3 --lens-radius 0.16
+holds fstop 1.55 1.72
+
+# Options that all tools share.
+exits 0 "$match" ldi.exr plate.exr --json --threads 1 -o again.json -v
+cmp -s keys.json again.json || fail "--threads changes the keys"
+grep -q 'threads: 1' stderr || fail "-v: $(cat stderr)"
+exits 1 "$match" ldi.exr plate.exr --max-memory 1KB
+grep -q 'more than --max-memory allows' stderr || fail "--max-memory: $(cat stderr)"
+
+# dof-gather reads the keys.
+exits 0 "$bin/dof-gather" ldi.exr --frames 1 --focus-distance @keys.json --lens-radius @keys.json -o by-keys.####.exr
+exits 0 "$bin/dof-gather" ldi.exr --focus-distance "$(grep -A1 '"focus_distance": {' keys.json | grep -o '[0-9.]*$')" \
+    --lens-radius "$radius" -o by-hand.exr
+picture same by-keys.0001.exr by-hand.exr 0.001 || fail "@keys.json"
+fails_saying 2 'keys.json: has no "blades"' "$bin/dof-gather" ldi.exr --frames 1 --blades @keys.json -o x.####.exr
+
+# A rack of focus; a frame without a plate to match gets its neighbours' values.
+for frame in 1 2 3; do plate "rack.000$frame.exr" "$(awk "BEGIN { print 2.4 + 0.4 * $frame }")" 0.11; done
+exits 0 "$match" ldi.exr "rack.####.exr" -o rack.json
+[ "$(wc -l <stdout)" -eq 4 ] || fail "a line for each frame: $(cat stdout)"
+for frame in 1 2 3; do
+    awk -v at="$(sed -n "$((frame + 1))p" stdout | awk '{ print $2 }')" -v true="$(awk "BEGIN { print 2.4 + 0.4 * $frame }")" \
+        'BEGIN { d = 17.6 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
+done
+exits 0 "$match" ldi.exr "rack.####.exr" --frames 2-3
+[ "$(wc -l <stdout)" -eq 3 ] || fail "--frames: $(cat stdout)"
+cp rack.0002.exr kept.exr
+picture edit kept.exr rack.0002.exr R=0 G=0 B=0
+exits 0 "$match" ldi.exr "rack.####.exr" -o rack.json
+grep -q 'warning: rack.0002.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
+
+# Plates that cannot be matched say why.
+picture edit plate.exr black.exr R=0 G=0 B=0
+fails_saying 1 'black.exr: .*shows nothing to compare' "$match" ldi.exr black.exr
+exits 0 "$bin/dof-trace" planes --size 160x90 --views 0 --spp 1 --reference 16 -o other
+fails_saying 1 'shows something else than the LDI' "$match" ldi.exr other/reference.exr
+oiiotool plate.exr --kernel box 11x1 --convolve -o moved.exr
+fails_saying 1 'blurred by motion' "$match" ldi.exr moved.exr
+plate sharp.exr 4 0.002
+fails_saying 1 'out of focus' "$match" ldi.exr sharp.exr
+oiiotool plate.exr --resize 80x45 -o small.exr
+fails_saying 1 'small.exr: its display window is 80 x 45' "$match" ldi.exr small.exr
+[ ! -e x.json ] || fail "keys of a plate that cannot be matched"
+
+# Mistakes.
+for region in 1,2,3 0,0,0,5 a,b,c,d 0,0,5,-1; do
+    fails_saying 2 '--region' "$match" ldi.exr plate.exr --region "$region"
+done
+fails_saying 2 'contains no pixel' "$match" ldi.exr plate.exr --region 500,500,10,10
+fails_saying 2 '--fit' "$match" ldi.exr plate.exr --fit lens
+fails_saying 2 '--fstop' "$match" ldi.exr plate.exr --lens-radius 0

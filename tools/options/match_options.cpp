@@ -1,0 +1,99 @@
+#include "options/match_options.h"
+
+#include "harness/examples.h"
+#include "harness/words.h"
+#include "options/parameter_options.h"
+#include "options/picture_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+enum class Fit { both, focus, fstop };
+
+// Parses "X,Y,WIDTH,HEIGHT"; nothing for other text and for a size below 1.
+std::optional<Imath::Box2i> parse_rectangle(const std::string &text) {
+    std::array<int, 4> v{};
+    const char *at = text.data(), *const end = at + text.size();
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (i > 0 && (at == end || *at++ != ',')) return {};
+        const auto [after, error] = std::from_chars(at, end, v[i]);
+        if (error != std::errc()) return {};
+        at = after;
+    }
+    if (at != end || v[2] < 1 || v[3] < 1) return {};
+    return Imath::Box2i({v[0], v[1]}, {v[0] + v[2] - 1, v[1] + v[3] - 1});
+}
+
+void add_file_options(CLI::App &app, MatchCommand &options) {
+    app.add_option("IN", options.input,
+                   "LDI of the shot, any deep EXR, or a flat EXR with depth, for example of a scanned set")
+        ->type_name("")
+        ->required();
+    app.add_option(
+           "PLATE", options.plate,
+           "The filmed plate (EXR), of the same size; --colorspace and others are not needed, because "
+           "colours are not compared")
+        ->type_name("")
+        ->required();
+    app.add_option("-o,--output", options.output,
+                   "Keys to write (JSON), for --focus-distance @KEYS.json and --fstop @KEYS.json")
+        ->type_name("KEYS.json");
+    app.add_option("--show", options.show,
+                   "Also write the gathered picture beside the plate, in grey (EXR, PNG, JPEG or TIFF)")
+        ->type_name("PICTURE")
+        ->check(output_name(OutputKind::picture));
+    app.add_flag("--json", options.json, "Print JSON instead of a table");
+    app.add_option("--frames", options.frames,
+                   "Frames to match; file names hold #### or %04d (default: the plates on disk)")
+        ->type_name("RANGE")
+        ->group("Frames");
+    app.add_option("--stats", options.stats, "Append statistics as one line of JSON per frame; - for stderr")
+        ->type_name("FILE");
+}
+
+} // namespace
+
+void add_match_options(CLI::App &app, MatchCommand &options) {
+    options.channels = "rgba";
+    add_file_options(app, options);
+    app.add_option_function<std::string>(
+           "--region",
+           [&options](const std::string &text) {
+               options.match.region = parse_rectangle(text);
+               if (!options.match.region)
+                   throw CLI::ValidationError(
+                       "--region",
+                       fmt::format("must be X,Y,WIDTH,HEIGHT (e.g. 100,50,640,360), not '{}'", text));
+           },
+           "Compare only these pixels: the upper left one, y down, and the size (default: all)")
+        ->type_name("X,Y,W,H");
+    app.add_option_function<std::string>(
+           "--fit",
+           [&options](const std::string &number) {
+               const auto fit = Fit(number.front() - '0');
+               options.match.match_focus = fit != Fit::fstop;
+               options.match.match_fstop = fit != Fit::focus;
+           },
+           "What to find; the other value is that of the file or of an option (default: both)")
+        ->type_name("both|focus|fstop")
+        ->transform(words(
+            std::map<std::string, Fit>{{"both", Fit::both}, {"focus", Fit::focus}, {"fstop", Fit::fstop}}));
+    add_parameters(app, lens_parameters(), options.lens);
+    add_examples(app, {{"Find the lens of a filmed rack of focus",
+                        "dof-match shot.ldi.exr plate.####.exr --region 200,100,600,340 -o keys.json"},
+                       {"... and blur the shot as it is",
+                        "dof-gather shot.ldi.exr -o out.####.exr --frames 1-48 --focus-distance @keys.json "
+                        "--fstop @keys.json"},
+                       {"Find the focus alone, with the f-stop of the camera report",
+                        "dof-match shot.ldi.exr plate.exr --fstop 2.8 --fit focus"}});
+}
+
+} // namespace sparselens
