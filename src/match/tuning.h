@@ -21,10 +21,10 @@ struct MatchTuning {
 
     // How large the factors of colours are expected to be: they are drawn to 0 by as many times the noise.
     static constexpr double tint_ridge = 10;
-    // The least number of blocks that show something, and the least share of them that match. 12 plates of other shots
-    // match in 13 to 17 %, plates of the shot with an actor over a third of them in 44 % and more.
+    // The least number of blocks that show something, and the least share of them that match. Plates of other shots
+    // match in 7 to 17 %, plates of the shot with an actor over a third of them in 26 % and more.
     static constexpr int least_textured = 6;
-    static constexpr double least_matched = 0.3;
+    static constexpr double least_matched = 0.22;
     // The least variance of blur by motion, square pixels of the compared pictures. Motion over 9 pixels has 6.
     static constexpr double motion_variance = 3;
     // A picture whose circles of confusion are all smaller is in focus, pixels of the plate.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "chain/plan_views.h"
+#include "chain/stated_camera.h"
 #include "harness/commands/cli.h"
 #include "options/parameter_options.h"
 
