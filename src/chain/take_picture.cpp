@@ -65,7 +65,7 @@ private:
         work_.progress.may_end();
     }
 
-    // Those of the picture of one pixel in which there is nothing.
+    // The channels of the picture of one pixel in which there is nothing.
     std::vector<Channel> channels_of_picture() {
         Ldi nothing;
         nothing.windows = windows_of_size(1, 1);

@@ -43,7 +43,7 @@ def part_attributes(manner):
 
 
 def parts_of_file(path):
-    """Of a centre view, the folders of see-through layers, and the name of the
+    """The folders of see-through layers of a centre view, and the name of the
     deep view of volumes, if there are any."""
     header = header_of(path) or {}
     return [header.get("sparselens:" + name, ("", b""))[1].decode().split()

@@ -32,7 +32,7 @@ FilmFit fit_of(const std::string &policy) {
     return FilmFit::expand;
 }
 
-// Of several settings, those that the layer names.
+// The only settings, or those of several that the layer names.
 const UsdPath *chosen_settings(const UsdLayer &layer, const std::vector<UsdPath> &settings) {
     if (settings.size() == 1) return &settings[0];
     const auto named =
