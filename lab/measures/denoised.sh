@@ -1,7 +1,7 @@
 # Open Image Denoise on few rays over the lens, and on few samples of five views: lab/denoise on five scenes, 320x180.
 # 10 CPU minutes; needs PyPI.
 . "$(dirname "$0")/common.inc" "$1"
-echo "| scene, rays | ray tracing | denoised | by pinhole albedo and normals | five views | five views, denoised | both: `ldi-warp --denoised` |"
+echo '| scene, rays | ray tracing | denoised | by pinhole albedo and normals | five views | five views, denoised | both: `ldi-warp --denoised` |'
 echo "|---|---|---|---|---|---|---|"
 for scene in fence grass mirror mist lamps; do
     [ -e "$scene.said" ] || "$(dirname "$0")/../denoise" "$bin" "$scene" "$scene" 320x180 1024 area >"$scene.new"

@@ -16,6 +16,10 @@ agree() { exits 0 python3 "$helpers/agree.py" "$bin" ldi.exr "$@"; }
 
 exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr
 
+# Another program may ask for pictures: tests/plugins has the tests of that.
+exits 0 bash -c 'echo "{\"ask\":\"facts\",\"file\":\"ldi.exr\"}" | "$1" --pipe 3<>pixels' - "$bin/dof-view"
+[ "$(grep -c '^200 0 {' stdout)" -eq 2 ] || fail "--pipe: not a greeting and an answer: $(cat stdout)"
+
 # All options of dof-gather work.
 agree
 agree --fstop 0.5 --focus-distance 2.5 --quality final

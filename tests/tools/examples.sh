@@ -22,8 +22,8 @@ dof-gather ldi.exr -o picture.exr
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced
 
-# Tools that take long, or do not end, have their own scripts.
-elsewhere='^dof-(report|view) '
+# Tools that take long, do not end, or need a plate have their own scripts.
+elsewhere='^dof-(match|report|view) '
 ran=0
 for tool in "$bin"/dof-* "$bin"/ldi-*; do
     name=$(basename "$tool")

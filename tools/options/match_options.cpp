@@ -89,9 +89,6 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
     add_parameters(app, lens_parameters(), options.lens);
     add_examples(app, {{"Find the lens of a filmed rack of focus",
                         "dof-match shot.ldi.exr plate.####.exr --region 200,100,600,340 -o keys.json"},
-                       {"... and blur the shot as it is",
-                        "dof-gather shot.ldi.exr -o out.####.exr --frames 1-48 --focus-distance @keys.json "
-                        "--fstop @keys.json"},
                        {"Find the focus alone, with the f-stop of the camera report",
                         "dof-match shot.ldi.exr plate.exr --fstop 2.8 --fit focus"}});
 }
