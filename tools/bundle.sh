@@ -7,7 +7,8 @@
 # tools, dof-trace of the laboratory, all libraries that they need with their loader, the Blender add-on as a zip, and
 # the licences of all of it. The tools start through the loader in the archive, so the system's C library may be older
 # or newer. In the place of OpenImageIO there is a module that writes PNG, JPEG and TIFF (src/io/display/small_module.cpp);
-# other formats are missing, and so is the Python module. Needs the Debian packages of tools/install-deps.sh build bundle.
+# other formats are missing, and so are the Python module and the plug-in for OpenImageIO. Needs the Debian packages of
+# tools/install-deps.sh build bundle.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 fail() {
@@ -35,6 +36,7 @@ modules=$root/$(cached CMAKE_INSTALL_LIBDIR)/sparselens
 [ -d "$modules" ] || modules=$root/lib/sparselens
 [ -s "$modules/sparselens-oiio.so" ] || fail "the installation has no sparselens-oiio.so"
 install -s "$small" "$modules/sparselens-oiio.so"
+rm -rf "$modules/openimageio" # a plug-in belongs to the OpenImageIO of the program that loads it
 find "$root" -name 'dof-accumulate*' -o -name 'dof-report*' -o -name _dof-accumulate -o -name _dof-report | xargs -r rm
 mkdir -p "$root/libexec" "$root/licences"
 mv "$root"/bin/* "$root/libexec/"
