@@ -70,7 +70,10 @@ while read -r file; do
 done < <(programs | grep -v '/ld-linux')
 
 # The licences: of the packages that the libraries and the headers are from, and the texts that these name.
-package_of() { { dpkg-query -S "$1" "${1#/usr}" "/usr$1" "$(readlink -f "$1")" 2>/dev/null || true; } | sed -n 's/: .*//; s/, .*//; 1p'; }
+package_of() {
+    { dpkg-query -S "$1" "${1#/usr}" "/usr$1" "$(readlink -f "$1")" 2>/dev/null || true; } |
+        sed '/^diversion by /d; s/: .*//; s/, .*//' | sed -n 1p
+}
 {
     for library in "${libraries[@]}"; do package_of "$library"; done
     dpkg-query -W -f='${Package}\n' libcli11-dev nlohmann-json3-dev libvulkan-dev 2>/dev/null # headers

@@ -94,7 +94,9 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     const auto &c = fit.covariance;
     const double focus_variance =
         by_coc * by_coc * c[0][0] + 2 * by_coc * by_scale * c[0][1] + by_scale * by_scale * c[1][1];
-    const auto coc_at = [&](double depth) { return std::abs(coc - scale * (depth - in.pictures.middle)); };
+    const auto coc_at = [middle = in.pictures.middle, coc = coc, scale = scale](double depth) {
+        return std::abs(coc - scale * (depth - middle));
+    };
     const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
     of.largest_coc = in.by() * largest;
     of.coc_deviation = in.by() * wider(c[0][0], MatchTuning::gather_coc_px);

@@ -18,7 +18,7 @@ void add_camera_options(CLI::App &app, CameraRequest &camera) {
         ->needs(file)
         ->group("Lens");
     app.add_option("--camera-frame", camera.frame,
-                   "Time code at which the camera is read (default: the frame of --frames)")
+                   "Time code at which the camera is read (default: the number of the frame)")
         ->type_name("N")
         ->needs(file)
         ->group("Lens");
