@@ -43,11 +43,13 @@ cmp linked.exr theirs/picture.exr || fail "by a link: another picture"
 fails_saying 2 'ends in no format that is written: .exr, .png, .jpg, .jpeg, .tif, .tiff' "$made/bin/dof-gather" theirs/fence.ldi.exr -o x.tga
 
 # The pixels of PNG, JPEG and TIFF are those that OpenImageIO writes, also with coverage and pixels that are not square.
+# Versions 2.4 and 2.5 of OpenImageIO differ about what the densities of JPEG mean, so the file's bytes count below.
+declare -A ignored=([jpg]='/PixelAspect/d;')
 same_pixels() { # NAME
     for ending in png jpg tif; do
         oiiotool "theirs/$1.$ending" "ours/$1.$ending" --diff >log 2>&1 || fail "other pixels in $1.$ending: $(cat log)"
         for of in theirs ours; do oiiotool --info -v "$of/$1.$ending" |
-            grep -E 'channel list|PixelAspect|uint|Unassoc' | sed 's/^[^:]*: *//; /^1$/d' >$of.info; done
+            grep -E 'channel list|PixelAspect|uint|Unassoc' | sed "${ignored[$ending]:-}"'s/^[^:]*: *//; /^1$/d' >$of.info; done
         cmp theirs.info ours.info || fail "$1.$ending: $(cat ours.info), not $(cat theirs.info)"
     done
 }
@@ -59,6 +61,8 @@ for of in theirs:"$bin" ours:"$made/bin"; do
     done
 done
 same_pixels half
+# Unit 0; 100 by 150 pixels on the same length, so pixels are 1.5 times as wide as high (JFIF 1.02).
+[ "$(od -An -tu1 -j13 -N5 ours/half.jpg | tr -s ' ')" = ' 0 0 100 0 150' ] || fail "densities of JPEG: $(od -An -tu1 -j13 -N5 ours/half.jpg)"
 
 # The full disk is said.
 if [ -w /dev/full ]; then
