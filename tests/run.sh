@@ -8,7 +8,7 @@ exec </dev/null
 
 tools/install-deps.sh build demo gpu test
 cmake --preset release --log-level=WARNING -DSPARSELENS_TESTS=ON -DSPARSELENS_BENCHMARKS=ON \
-    -DSPARSELENS_LAB=ON -DSPARSELENS_GPU=ON -DSPARSELENS_PYTHON=ON
+    -DSPARSELENS_LAB=ON -DSPARSELENS_GPU=ON -DSPARSELENS_PYTHON=ON -DSPARSELENS_BUNDLE=ON
 cmake --build build -j "$(nproc)"
 # One process more than there are cores, because some mostly wait. The limit stops tests that never end: it is ten times
 # the longest test on two cores, and less than half of the time of continuous integration.
