@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// What a value is. As text, a flag is empty, and numbers are separated by commas.
+// The form of a value. The text of a flag is empty; numbers are separated by commas.
 enum class ParameterForm {
     flag,
     whole,

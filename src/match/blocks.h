@@ -3,7 +3,8 @@
 //     plate = a + b V + c V^2 + d V_x + e V_y + f (R - V) + g (B - V)
 //
 // where R, G and B are those of the gathered picture and V is their mean. So exposure, grade, tone curve and a shift of
-// a fraction of a pixel do not count. What remains is blur. A block of other content (an actor) is not fitted by any blur and says nothing.
+// a fraction of a pixel do not count, and the fit compares blur alone. No blur fits a block of other content, such as an
+// actor, so that block says nothing.
 #pragma once
 
 #include "match/colours.h"

@@ -95,7 +95,7 @@ Settings settings_in_query(const std::string &query) {
 Settings read_dof_file(const std::string &path) {
     std::error_code error;
     if (fs::file_size(path, error) > largest_file && !error)
-        throw Error(path + ": is larger than 1 MB, which is no .dof file");
+        throw Error(path + ": is larger than 1 MB, so it is not a .dof file");
     return settings_in(read_json_file(path), path);
 }
 

@@ -48,7 +48,8 @@ void read_settings(UsdCameras &usd) {
     usd.fit = fit_of(text_value(*settings->back(), "aspectRatioConformPolicy"));
     const std::vector<double> size = numbers_at(place, "resolution", 2);
     const auto is_side = [](double v) { return v >= 1 && v <= 1 << 20 && v == std::floor(v); };
-    if (!size.empty() && (!is_side(size[0]) || !is_side(size[1]))) refuse(place, "its resolution is no size");
+    if (!size.empty() && (!is_side(size[0]) || !is_side(size[1])))
+        refuse(place, "its resolution is not a size");
     if (!size.empty()) usd.resolution = Imath::V2i(int(size[0]), int(size[1]));
     usd.pixel_aspect = number_at(place, "pixelAspectRatio").value_or(1);
     if (!(usd.pixel_aspect > 1e-3 && usd.pixel_aspect < 1e3))
