@@ -39,8 +39,8 @@ bool is_linear(const Tell &tell, const ColourOptions &options, const std::string
 // The transform from linear colours, in the space that `metadata` states, to those of a PNG; see write_picture().
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata);
 
-// Makes the linear colours of a picture those of an OpenEXR file in `output_colorspace`, and its header that of the file;
-// see write_picture(). Throws UsageError, naming `path`, if a display is given.
+// Makes the linear colours of a picture those of an OpenEXR file in `output_colorspace`, and its header that of the
+// file; see write_picture(). Throws UsageError, naming `path`, if a display is given.
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header);
 
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR

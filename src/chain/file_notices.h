@@ -33,7 +33,8 @@ void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings);
 void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
                        int across, const LensLooks &looks);
 
-// All send a notice only if there is something to report. `speckles`: how many were settled (view/speckles.h). `clamped` is the result of write_flat_exr or write_ldi.
+// All send a notice only if there is something to report. `speckles`: how many were settled (view/speckles.h).
+// `clamped` is the result of write_flat_exr or write_ldi.
 void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped);
 void tell_speckles(const Tell &tell, const std::string &path, std::size_t speckles);
 void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad);

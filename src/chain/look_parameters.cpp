@@ -25,7 +25,7 @@ constexpr std::array look_controls{NamedControl{"blades", {"blades", 0, 16, 0, 3
                                    NamedControl{"breathing", {"focus breathing", 0, 2}},
                                    NamedControl{"highlight-gain", {"brighter lights", 1, 50, 1}},
                                    NamedControl{"highlight-threshold", {"lights: above", 0, 20, 1}},
-                                   NamedControl{"highlight-knee", {"lights: softness", 0, 20, 1}}};
+                                   NamedControl{"highlight-knee", {"lights: softness", 0.001, 20, 1}}};
 
 Rows<GivenLooks> numbers_of(std::span<const LookNumber> table) {
     Rows<GivenLooks> rows;

@@ -3,8 +3,8 @@
 //     plate = a + b V + c V^2 + d V_x + e V_y + f (R - V) + g (B - V)
 //
 // where R, G and B are those of the gathered picture and V is their mean. So exposure, grade, tone curve and a shift of
-// a fraction of a pixel do not count, and the fit compares blur alone. No blur fits a block of other content, such as an
-// actor, so that block says nothing.
+// a fraction of a pixel do not count, and the fit compares blur alone. No blur fits a block of other content, such as
+// an actor, so that block says nothing.
 #pragma once
 
 #include "match/colours.h"
@@ -16,8 +16,8 @@
 
 namespace sparselens {
 
-// How the gathered picture changes with what is searched for: the CoC at the middle depth, the size of the lens, and the softness of the
-// whole picture; then softness along x more than y, and along the diagonals, as motion has it.
+// How the gathered picture changes with what is searched for: the CoC at the middle depth, the size of the lens, and
+// the softness of the whole picture; then softness along x more than y, and along the diagonals, as motion has it.
 inline constexpr std::size_t most_changes = 5;
 using Changes = std::array<double, most_changes>;
 

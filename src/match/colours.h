@@ -1,5 +1,5 @@
-// The pictures that dof-match compares, tone-mapped (base/tone_map.h), so that noise and errors count everywhere as they
-// do on a display.
+// The pictures that dof-match compares, tone-mapped (base/tone_map.h), so that noise and errors count everywhere as
+// they do on a display.
 #pragma once
 
 #include "base/grid.h"

@@ -1,5 +1,5 @@
-// Whether a plate shows what a gathered picture shows: a block that does is fitted better in its own place than in other
-// places of the plate. In a plate of another shot, one block in nine is, by chance.
+// Whether a plate shows what a gathered picture shows: a block that does is fitted better in its own place than in
+// other places of the plate. In a plate of another shot, one block in nine is, by chance.
 #pragma once
 
 #include "match/blocks.h"

@@ -1,8 +1,8 @@
 // Finds the lens whose gathered picture is blurred as a plate is.
 //
 // The CoC is a linear function of perceptive depth P (lens/perceptive_depth.h): c(P) = coc - scale (P - middle). The
-// search compares gathered pictures over a grid of both numbers, then follows the best ones by Gauss-Newton steps, whose
-// derivatives are differences of gathered pictures.
+// search compares gathered pictures over a grid of both numbers, then follows the best ones by Gauss-Newton steps,
+// whose derivatives are differences of gathered pictures.
 #pragma once
 
 #include "match/blocks.h"

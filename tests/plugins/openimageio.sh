@@ -86,7 +86,7 @@ head -c 3000000 /dev/urandom >random.dof
 printf '{"ldi": "random.dof"}' >loop.dof
 says 'none.exr: cannot open' oiiotool none.dof -o out.exr
 says "fstop.*'wide'" oiiotool wide.dof -o out.exr
-says 'unknown: is no setting' oiiotool unknown.dof -o out.exr
+says 'unknown: is not a setting' oiiotool unknown.dof -o out.exr
 says 'ldi: is missing' oiiotool empty.dof -o out.exr
 says 'not JSON' oiiotool cut.dof -o out.exr
 says 'larger than 1 MB' oiiotool random.dof -o out.exr

@@ -4,7 +4,7 @@
 //   reader threads NAME.dof EXR      eight threads read tiles of all sizes: by an ImageCache, by one ImageInput, and by
 //                                    readers of their own; each equals the EXR file
 //   reader again NAME.dof COMMAND    reads twice, with the shell's COMMAND between: prints whether the pixels changed
-//   reader memory NAME.dof           prints how far the memory grows, in pictures, while it is read by rows and as a whole
+//   reader memory NAME.dof           prints how far the memory grows, in pictures, while it is read by rows and whole
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>

@@ -140,7 +140,7 @@ private:
         const std::string word = (option.size() == 1 ? "-" : "--") + option;
         const CLI::Option *known = known_.get_option_no_throw(word);
         if (!known || known->get_positional() || is_among(not_settable, option))
-            throw UsageError(option + ": is no setting of a picture (see dof-gather --help)");
+            throw UsageError(option + ": is not a setting of a picture (see dof-gather --help)");
         if (known->get_items_expected_max() == 0) { // a flag
             if (is_among(std::array{"true", "on", "1"}, value)) return {word};
             if (is_among(std::array{"false", "off", "0"}, value)) return {};

@@ -4,6 +4,8 @@
 #include "harness/one_line.h"
 #include "io/files/system_error.h"
 #include "viewing/gatherer.h"
+#include "viewing/pipe_request.h"
+#include "viewing/refusal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,7 +18,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -146,11 +147,6 @@ std::string answer_line(int status, std::size_t bytes, const std::string &text) 
     return fmt::format("{} {} {}\n", status, bytes, one_line(text));
 }
 
-std::string refusal(int status, const std::string &why) {
-    // Text from a file or a message may not be UTF-8.
-    return answer_line(status, 0, why);
-}
-
 std::string answer_to(Gatherer &gatherer, const std::string &line) {
     Gatherer::Answer answer = gatherer.answer(parse_pipe_request(line));
     put_pixels(answer.pixels);
@@ -164,12 +160,9 @@ std::optional<std::string> next_answer(Gatherer &gatherer, Lines &lines) {
         const std::optional<std::string> line = lines.next();
         if (!line) return {};
         return answer_to(gatherer, *line);
-    } catch (const UsageError &error) {
-        return refusal(400, with_options(error.what()));
-    } catch (const std::bad_alloc &) {
-        return refusal(500, "there is not enough memory for this");
-    } catch (const std::exception &error) {
-        return refusal(500, with_options(error.what()));
+    } catch (const std::exception &) {
+        const Refusal refusal = refusal_of_exception();
+        return answer_line(refusal.status, 0, refusal.why); // text from a file may not be UTF-8
     }
 }
 

@@ -1,16 +1,15 @@
 #include "viewing/server.h"
 
 #include "base/error.h"
-#include "harness/one_line.h"
 #include "viewing/door.h"
 #include "viewing/http_server.h"
 #include "viewing/page_assets.h"
+#include "viewing/refusal.h"
 
 #include <fmt/format.h>
 
 #include <exception>
 #include <map>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -73,12 +72,9 @@ HttpAnswer answer_to(const HttpRequest &request, const Routes &routes) {
         if (auto said = route->second.answer(parse_asked(request.body)))
             return {.type = route->second.type, .body = std::move(*said)};
         return refusal(409, "the page has asked for something newer");
-    } catch (const UsageError &error) {
-        return refusal(400, with_options(error.what()));
-    } catch (const std::bad_alloc &) {
-        return refusal(500, "there is not enough memory for this");
-    } catch (const std::exception &error) {
-        return refusal(500, with_options(error.what()));
+    } catch (const std::exception &) {
+        const Refusal refused = refusal_of_exception();
+        return refusal(refused.status, refused.why);
     }
 }
 

@@ -1,6 +1,6 @@
 // Writes PNG, JPEG and TIFF by libpng, libjpeg and libtiff alone: the module of io/display/oiio_module.h for archives,
-// where OpenImageIO would bring two hundred libraries (tools/bundle.sh). Its pixels equal OpenImageIO's: TIFF has 16 bits,
-// the others 8.
+// where OpenImageIO would bring two hundred libraries (tools/bundle.sh). Its pixels equal OpenImageIO's: TIFF has 16
+// bits, the others 8.
 #include "io/display/oiio_module.h"
 
 // clang-format off

@@ -38,8 +38,8 @@ const UsdPath *camera_of_file(const UsdCameras &usd, const std::string &file);
 // Whether the values of the camera change with time.
 bool is_animated(const UsdPath &camera);
 
-// The camera at a time code. Throws Error, naming the file and the prim, for a camera that cannot be used: orthographic,
-// mirrored, sheared, with an aperture of 0, or composed from other files.
+// The camera at a time code. Throws Error, naming the file and the prim, for a camera that cannot be used:
+// orthographic, mirrored, sheared, with an aperture of 0, or composed from other files.
 FilmCamera film_camera(const UsdCameras &usd, const UsdPath &camera, double time);
 
 // Near and far plane at a time code, scene units.
