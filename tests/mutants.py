@@ -5,9 +5,9 @@
 
 Compares with COMMIT (HEAD~20), and uses changed lines of src/**/*.cpp and tools/**/*.cpp, or all lines of each FILE.
 First come the faults that tests/mutations.txt has for these files, then operators, comparisons and constants. Ends
-after N seconds (600) or N faults (30). The build is not modified: a changed file is compiled and linked elsewhere.
-Exits with 1 if a fault of the list is not caught, or if fewer than half of the others are: some faults change nothing
-visible.
+after N seconds (600) or N faults (30). The build is not modified: a changed file is compiled and linked in a folder
+beside bin/. Exits with 1 if a fault of the list is not caught, or if fewer than half of the others are, since some
+faults change nothing visible, or if the test that caught a fault fails without it too.
 """
 import argparse
 import hashlib
@@ -30,7 +30,9 @@ def said(*command, **options):
 
 
 def changed_lines(since):
-    """{file: numbers of the lines that differ from that commit}"""
+    """{file: numbers of the lines that differ from that commit, or from the oldest that a shallow clone has}"""
+    if subprocess.run(["git", "rev-parse", "-q", "--verify", since + "^{commit}"], capture_output=True, cwd=source).returncode:
+        since = said("git", "rev-list", "HEAD").split()[-1]
     lines, file = {}, None
     for line in said("git", "diff", "-U0", since, "--", "src/*.cpp", "tools/*.cpp").splitlines():
         if line.startswith("+++ "):
@@ -102,15 +104,22 @@ class Tests:
         link = self.link.replace("-o bin/sparselens-tests ", f"-o {self.scratch}/tests {object_} ")
         return all(subprocess.run(c, shell=True, cwd=self.build, capture_output=True).returncode == 0 for c in (compile_, link))
 
-    def failing(self, filters, limit):
+    def failing(self, filters, limit, program="tests"):
         """The first test that fails; None: no test does; "no time": they did not end."""
         try:
-            ran = subprocess.run([self.scratch / "tests", "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={filters}"],
+            ran = subprocess.run([self.scratch / program, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={filters}"],
                                  capture_output=True, text=True, errors="replace", timeout=limit, cwd=self.build)
         except subprocess.TimeoutExpired:
             return "no time"
         failed = re.search(r"\[  FAILED  \] ([\w./]+)", ran.stdout)
         return failed[1] if failed else "all ended early" if ran.returncode else None
+
+    def fails_anyway(self, test):
+        """Whether a test fails without a fault."""
+        unchanged = self.scratch / "unchanged"
+        if not unchanged.exists():
+            unchanged.hardlink_to(self.build / "bin" / "sparselens-tests")
+        return "." in test and self.failing(test, 600, "unchanged") is not None
 
     def beside(self, file):
         """The suites of the test file that mirrors this file."""
@@ -127,7 +136,7 @@ def main():
     asked = parser.parse_args()
     lines = ({f: range(1, len((source / f).read_text().splitlines()) + 1) for f in asked.files} or changed_lines(asked.since))
     end, caught, tried, code = time.monotonic() + asked.seconds, 0, 0, 0
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(dir=source / asked.build) as scratch:  # lib/ is beside it, as it is beside bin/
         tests = Tests(source / asked.build, pathlib.Path(scratch))
         for name, file, text, filters in [*listed(lines), *generated(lines)]:
             if time.monotonic() > end or tried == asked.most:
@@ -139,6 +148,8 @@ def main():
             by = first or tests.failing(filters or "*", max(end - time.monotonic(), 1))
             if by == "no time" and not first:  # a fault with which no test ends, or the time is up
                 break
+            if by and tests.fails_anyway(by):
+                sys.exit(f"mutants.py: {by} fails without a fault too")
             print(f"{'caught' if by else 'NOT CAUGHT'}: {name}{f' ({by})' if by else ''}", flush=True)
             if filters:
                 code |= not by

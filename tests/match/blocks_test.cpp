@@ -62,6 +62,19 @@ TEST(FitBlocks, a_change_is_measured) {
     EXPECT_NEAR(block.pull[0] * block.pull[0] / block.stiffness[0][0] / block.left, 1, 0.01);
 }
 
+TEST(FitBlocks, a_change_is_measured_through_a_grade_and_a_tone_curve) {
+    const Colours shown = test::waves(16, 16);
+    Colours changed = shown;
+    const Colours change =
+        test::colours(16, 16, [](double x, double y, std::size_t) { return std::sin(1.1 * x * y); });
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < shown.grid.size(); ++i) changed.rgb[k][i] += 0.003f * change.rgb[k][i];
+    const BlockFit block = fit_blocks(graded(changed, 0.15f, 0.15f, 0.15f), test::all_usable(shown.grid),
+                                      shown, std::vector{change})
+                               .front();
+    EXPECT_NEAR(block.pull[0] / block.stiffness[0][0], 0.003, 0.0003);
+}
+
 TEST(FitBlocks, unusable_pixels_are_not_compared) {
     const Colours shown = test::waves(32, 16);
     Grey plate = brightness(shown);
