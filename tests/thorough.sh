@@ -21,7 +21,8 @@ with() {
     cmake --preset release -B build-thorough/build --log-level=WARNING -DBUILD_SHARED_LIBS=OFF -DSPARSELENS_LAB=ON \
         -DSPARSELENS_GPU=ON -DSPARSELENS_PYTHON=ON "$@" &&
         cmake --build build-thorough/build -j "$(nproc)" &&
-        ctest --test-dir build-thorough/build --output-on-failure --timeout 3000 -j 2
+        ctest --test-dir build-thorough/build --output-on-failure --timeout 3000 -j 2 &&
+        tests/skips.sh build-thorough/build
 }
 run() {
     case $1 in

@@ -26,6 +26,7 @@ met() {
     says_once "^dof-gather: warning: $2: $1" "dof-gather"
     exits 0 "$bin/ldi-plan" "${@:2}" -o plan.json
     says_once "^ldi-plan: warning: $2: $1" "ldi-plan"
+    [ "$(grep -c 'warning: ' stderr)" = 1 ] || fail "ldi-plan warns of more than one mistake: $(cat stderr)"
 }
 # Replaces the colours, or the depth, by those of another file.
 colours_of() { oiiotool $center --ch Z "$1" --ch R,G,B,A --chappend --ch R,G,B,A,Z -d half -d Z=float -o "$2"; }

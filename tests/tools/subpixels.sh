@@ -109,6 +109,13 @@ done
 exits 0 "$bin/dof-gather" fine.exr -o shown.png
 oiiotool --info shown.png | grep -q '80 x *48' || fail "PNG: $(oiiotool --info shown.png)"
 
+# Colours are converted after sub-pixels are averaged, so the mean is one of linear light.
+exits 0 "$bin/dof-gather" fine.exr -d float -o linear.exr --lens-radius 0
+oiiotool linear.exr --ch R,G,B --colorconvert linear sRGB -d float -o expected.exr
+exits 0 "$bin/dof-gather" fine.exr -d float -o srgb.exr --lens-radius 0 --output-colorspace sRGB
+oiiotool srgb.exr --ch R,G,B -d float -o encoded.exr
+same encoded.exr expected.exr "--output-colorspace of sub-pixels" 1e-4
+
 # --max-memory and bands: an LDI of many samples, gathered at once (--depth-out needs all samples) and in bands.
 if [ -x "$bin/sparselens-deep-scene" ]; then
     exits 0 "$bin/sparselens-deep-scene" apart 64 600 deep.exr

@@ -106,8 +106,8 @@ struct Scene {
         return lens_gather(ldi, lens, ldi.windows.data, options, silent);
     }
     // The cell size of its first tile.
-    int cell_size(const LensGatherOptions &options) {
-        const GatherScene scene = prepare(ldi, lens, ldi.windows.data, options);
+    int cell_size(const LensGatherOptions &options, const ThinLens &by = lens) {
+        const GatherScene scene = prepare(ldi, by, ldi.windows.data, options);
         TilePlan plan(scene, options, ldi.windows);
         const std::optional<PlannedTile> tile = plan.tile(0);
         return tile->cells ? tile->cells->across : 1;
@@ -195,11 +195,16 @@ struct Beside {
     const char *name;
     LensLooks looks = {};
     std::function<void(Ldi &)> change = [](Ldi &) {};
+    double pixel_aspect = 1;
+    int width = 90, height = 60;
 };
 const std::vector<Beside> beside_cells{
     {"cat's eyes", {.cat_eye = 1}},
     {"curvature", {.field_curvature = 0.02}},
     {"blades and a squeeze", {.aperture = {.blades = 5, .squeeze = 1.5}}},
+    {"a bent and tilted plane of focus", {.field_curvature = 0.01, .tilt = {0.01, -0.02}}},
+    {"pixels twice as wide as high", {}, [](Ldi &) {}, 2},
+    {"cat's eyes in a small odd frame", {.cat_eye = 1}, [](Ldi &) {}, 1, 61, 47},
     {"colour fringes", {.chromatic_coc = {3, 0, -3}}},
     {"partial coverage",
      {},
@@ -239,14 +244,17 @@ TEST(Cells, ThePictureIsThatOfManyLensPointsWhateverTheLensAndTheSamplesAre) {
     for (const Beside &beside : beside_cells) {
         const char *name = beside.name;
         const LensLooks &looks = beside.looks;
-        Scene scene(70, -62, 1, 90, 60);
+        Scene scene(70, -62, 1, beside.width, beside.height);
         beside.change(scene.ldi);
-        ASSERT_GT(scene.cell_size({.looks = looks}), 1) << name;
+        ThinLens by = lens;
+        by.pixel_aspect = beside.pixel_aspect;
+        scene.ldi.windows.pixel_aspect = float(beside.pixel_aspect);
+        ASSERT_GT(scene.cell_size({.looks = looks}, by), 1) << name;
         const auto picture = [&](int points) {
             PictureOptions options;
             options.gather.lens = {.lens_samples = points, .looks = looks};
             const Imath::Box2i &window = scene.ldi.windows.data;
-            return gather_picture(scene.ldi, lens, window, window, options, scene.silent);
+            return gather_picture(scene.ldi, by, window, window, options, scene.silent);
         };
         const Image truth = picture(1024);
         EXPECT_LT(rms(picture(0), truth), rms(picture(256), truth)) << name;
