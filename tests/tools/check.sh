@@ -28,7 +28,7 @@ exits() {
     local expected=$1 code=0
     shift
     "$@" >stdout 2>stderr </dev/null || code=$?
-    [ "$code" -eq "$expected" ] || fail "exit $code instead of $expected: $* ($(head -c 500 stderr))"
+    [ "$code" -eq "$expected" ] || fail "exit $code instead of $expected: $* ($(head -c 500 stderr)$([ -s stderr ] || tail -c 1000 stdout))"
 }
 
 # fails_saying CODE PATTERN COMMAND...: it ends with that code and one line on stderr that matches (grep -E).
