@@ -1,7 +1,7 @@
 // The current quality of the whole chain from views to the picture, in dB of the tone-mapped picture against a
 // ray-traced reference. Only this table holds it. A figure may fall by `floor_below` before the test fails, and is
 // raised here when the picture becomes better, so that an improvement cannot be lost unnoticed (docs/tolerances.md,
-// section 5). Where it is lowered, section 8 has the reason.
+// section 5). Where it is lowered, section 7 has the reason.
 //
 //   build/bin/sparselens-lab-tests --gtest_filter='*Floors*'     prints each row as it is measured now
 //
