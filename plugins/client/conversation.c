@@ -119,6 +119,20 @@ int sparselens_parse_answer(const char *line, sparselens_answer *answer) {
     return answer->text != NULL;
 }
 
+outcome sparselens_put_pixels(int memory, const void *pixels, size_t bytes, sparselens_answer *answer) {
+    int failed = ftruncate(memory, 0) != 0;
+    for (size_t done = 0; !failed && done < bytes;) {
+        const ssize_t n = pwrite(memory, (const char *)pixels + done, bytes - done, (off_t)done);
+        if (n > 0)
+            done += (size_t)n;
+        else
+            failed = errno != EINTR;
+    }
+    if (!failed) return got_answer;
+    sparselens_say(answer, "cannot share %zu bytes of pixels: %s", bytes, strerror(errno));
+    return no_answer;
+}
+
 /* By copies: a file that the other side cuts off cannot raise a signal. */
 outcome sparselens_take_pixels(int memory, sparselens_answer *answer) {
     struct stat info;

@@ -34,6 +34,9 @@ outcome sparselens_receive_line(int socket, const char *name, double deadline, l
 /* Takes "STATUS BYTES TEXT" apart. Returns whether it is that. */
 int sparselens_parse_answer(const char *line, sparselens_answer *answer);
 
+/* Makes the shared file hold these bytes alone. */
+outcome sparselens_put_pixels(int memory, const void *pixels, size_t bytes, sparselens_answer *answer);
+
 /* Takes the pixels of the answer out of the shared file, and empties it. */
 outcome sparselens_take_pixels(int memory, sparselens_answer *answer);
 

@@ -79,7 +79,13 @@ static outcome start(sparselens_client *client, sparselens_answer *answer) {
     return greeted;
 }
 
-static outcome ask(sparselens_client *client, const char *request, double deadline,
+typedef struct {
+    const char *line;
+    const void *pixels; /* null if there are none */
+    size_t bytes;
+} request_with_pixels;
+
+static outcome ask(sparselens_client *client, const request_with_pixels *request, double deadline,
                    sparselens_answer *answer) {
     gatherer_process *gatherer = &client->gatherer;
     clear(answer);
@@ -89,7 +95,11 @@ static outcome ask(sparselens_client *client, const char *request, double deadli
         if (started != got_answer) return started;
         clear(answer);
     }
-    outcome done = sparselens_send_line(gatherer->socket, client->program, request, deadline, answer);
+    outcome done = got_answer;
+    if (request->pixels)
+        done = sparselens_put_pixels(gatherer->memory, request->pixels, request->bytes, answer);
+    if (done == got_answer)
+        done = sparselens_send_line(gatherer->socket, client->program, request->line, deadline, answer);
     if (done == got_answer) done = receive(client, deadline, answer);
     if (done == got_answer && !sparselens_parse_answer(client->line.text, answer)) done = gatherer_gone;
     return done == got_answer ? sparselens_take_pixels(gatherer->memory, answer) : done;
@@ -97,6 +107,12 @@ static outcome ask(sparselens_client *client, const char *request, double deadli
 
 int sparselens_ask(sparselens_client *client, const char *request, double seconds,
                    sparselens_answer *answer) {
+    return sparselens_ask_with_pixels(client, request, NULL, 0, seconds, answer);
+}
+
+int sparselens_ask_with_pixels(sparselens_client *client, const char *request, const void *pixels,
+                               size_t bytes, double seconds, sparselens_answer *answer) {
+    const request_with_pixels all = {request, pixels, bytes};
     const double deadline = sparselens_seconds_now() + seconds;
     memset(answer, 0, sizeof *answer);
     if (strchr(request, '\n')) {
@@ -106,7 +122,7 @@ int sparselens_ask(sparselens_client *client, const char *request, double second
     pthread_mutex_lock(&client->mutex);
     outcome done = gatherer_gone;
     for (int attempt = 0; attempt < 2 && done == gatherer_gone; ++attempt) {
-        done = ask(client, request, deadline, answer);
+        done = ask(client, &all, deadline, answer);
         if (done != got_answer) sparselens_gatherer_end(&client->gatherer);
     }
     pthread_mutex_unlock(&client->mutex);

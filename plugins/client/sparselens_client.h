@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* The version of the requests and answers; a gatherer of another version is an error. */
-#define SPARSELENS_PIPE_VERSION 1
+#define SPARSELENS_PIPE_VERSION 2
 
 typedef struct sparselens_client sparselens_client;
 
@@ -31,12 +31,20 @@ typedef struct {
  * Starts nothing. */
 sparselens_client *sparselens_client_new(const char *program);
 
+/* Where dof-view is: in the folder that $SPARSELENS_BIN names; else in `folder`, a path that begins at the folder of the
+ * program or library that holds `function`, if it is there; else its name alone. Returns null if there is no memory. */
+char *sparselens_find_program(const void *function, const char *folder);
+
 /* Ends the gatherer. No other thread may use the client. */
 void sparselens_client_free(sparselens_client *client);
 
 /* Sends a request, one line of JSON without its end, and waits for the answer, at most `seconds`; a gatherer that takes
  * longer is killed. Any number of threads may call it: they take turns. Returns the status of the answer. */
 int sparselens_ask(sparselens_client *client, const char *request, double seconds, sparselens_answer *answer);
+
+/* The same, with a picture that the request describes: `bytes` of pixels, which are copied. */
+int sparselens_ask_with_pixels(sparselens_client *client, const char *request, const void *pixels,
+                               size_t bytes, double seconds, sparselens_answer *answer);
 
 void sparselens_answer_free(sparselens_answer *answer);
 

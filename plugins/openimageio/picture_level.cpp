@@ -1,14 +1,11 @@
 #include "picture_level.h"
 
-#include "../client/sparselens_client.h"
+#include "../client/json_answer.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <dlfcn.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -18,55 +15,17 @@ namespace sparselens_oiio {
 namespace {
 
 using Json = nlohmann::json;
+using Answer = sparselens_client_cpp::JsonAnswer;
 using OIIO::ImageSpec;
 
-constexpr double most_seconds = 1800;       // for a picture
 constexpr std::size_t most_bytes = 4 << 20; // of pixels at a time
-constexpr const char *program_name = "dof-view";
-
-// dof-view in $SPARSELENS_BIN, else where it is installed beside this module, else in PATH.
-std::string find_program() {
-    if (const char *folder = std::getenv("SPARSELENS_BIN"); folder && *folder)
-        return std::string(folder) + "/" + program_name;
-    Dl_info here{};
-    if (::dladdr(reinterpret_cast<const void *>(&find_program), &here) && here.dli_fname) {
-        const std::string module = here.dli_fname;
-        const std::string program =
-            module.substr(0, module.rfind('/') + 1) + SPARSELENS_BIN_FROM_HERE "/" + program_name;
-        if (::access(program.c_str(), X_OK) == 0) return program;
-    }
-    return program_name;
-}
 
 // It lives as long as the program: other threads may still read while the program ends.
 sparselens_client *client() {
-    static sparselens_client *const one = sparselens_client_new(find_program().c_str());
+    static sparselens_client *const one = sparselens_client_cpp::client_beside(
+        reinterpret_cast<const void *>(&client), SPARSELENS_BIN_FROM_HERE);
     return one;
 }
-
-class Answer {
-public:
-    // Throws if the answer is an error.
-    explicit Answer(const Json &request) {
-        // A name that is not UTF-8 names no file after this.
-        const std::string line = request.dump(-1, ' ', false, Json::error_handler_t::replace);
-        if (!client()) throw std::bad_alloc();
-        if (sparselens_ask(client(), line.c_str(), most_seconds, &answer_) == 200) return;
-        const std::string why = answer_.text ? answer_.text : "there is not enough memory";
-        sparselens_answer_free(&answer_);
-        throw std::runtime_error(why);
-    }
-    ~Answer() { sparselens_answer_free(&answer_); }
-    Answer(const Answer &) = delete;
-    Answer &operator=(const Answer &) = delete;
-
-    Json said() const { return Json::parse(answer_.text); }
-    void *bytes() const { return answer_.pixels; }
-    std::size_t size() const { return answer_.pixel_bytes; }
-
-private:
-    sparselens_answer answer_{};
-};
 
 Json request(const char *what, const Source &source, int level) {
     return {{"ask", what}, {"file", source.file}, {"query", source.query}, {"level", level}};
@@ -91,7 +50,7 @@ Answer ask_for_pixels(const Source &source, const Level &level, const Box &box) 
     Json tile = request("tile", source, level.number);
     tile["box"] = {box.x0, box.y0, box.x1 - 1, box.y1 - 1};
     tile["channels"] = level.spec.channelnames;
-    return Answer(tile);
+    return Answer(client(), tile);
 }
 
 void require_size(const Answer &answer, const Level &level, const Box &box) {
@@ -102,7 +61,7 @@ void require_size(const Answer &answer, const Level &level, const Box &box) {
 } // namespace
 
 std::shared_ptr<const Level> read_header(const Source &source, int number) {
-    const Answer answer(request("header", source, number));
+    const Answer answer(client(), request("header", source, number));
     const Json said = answer.said();
     auto level = std::make_shared<Level>();
     level->number = number;

@@ -156,11 +156,11 @@ program 'echo "200 0 {\"sparselens\":\"9.0\",\"pipe\":99}"; cat'
 other 'not of the version' 5
 program 'echo garbage; cat'
 other 'not of the version' 5
-program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":1}"; read line; exit 1'
+program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":2}"; read line; exit 1'
 other 'ended twice' 5
-program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":1}"; read line; echo "200 99999999999 {}"; cat'
+program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":2}"; read line; echo "200 99999999999 {}"; cat'
 other 'ended twice' 5
-program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":1}"; exec sleep 1000'
+program 'echo "200 0 {\"sparselens\":\"0\",\"pipe\":2}"; exec sleep 1000'
 other 'does not answer in time' 1
 rm other
 other 'cannot start' 5

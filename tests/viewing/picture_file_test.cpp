@@ -1,10 +1,12 @@
 #include "base/error.h"
+#include "io/exr/exr_flat.h"
 #include "support/scratch_folder.h"
 #include "viewing/pipe_request.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -100,6 +102,44 @@ TEST(PipeRequest, IsParsedOrRefused) {
           R"({"ask": "facts", "file": "a", "channels": []})", R"({"ask": "facts", "file": "a\u0000b"})",
           R"({"ask": "facts", "file": "a", "other": 1})"})
         EXPECT_THROW(parse_pipe_request(wrong), UsageError) << wrong;
+}
+
+TEST(PipeRequest, AFlatPictureTakesThePlaceOfAFile) {
+    const PipeRequest request = parse_pipe_request(
+        R"({"ask": "header", "shown": true, "picture": {"display": [0, 0, 9, 4], "data": [-1, 0, 9, 2],
+            "channels": ["R", "Z"], "pixel_aspect": 2, "shown": true}})");
+    ASSERT_TRUE(request.handed);
+    EXPECT_TRUE(request.shown && request.handed->shown);
+    EXPECT_EQ(request.handed->windows, (Windows{{{0, 0}, {9, 4}}, {{-1, 0}, {9, 2}}, 2}));
+    EXPECT_EQ(request.handed->bytes(), 11u * 3 * 2 * 4);
+    for (
+        const char *wrong :
+        {R"({"ask": "header", "file": "a", "picture": {"display": [0, 0, 1, 1], "data": [0, 0, 1, 1], "channels": ["R"]}})",
+         R"({"ask": "header", "picture": {"display": [0, 0, 1, 1], "channels": ["R"]}})",
+         R"({"ask": "header", "picture": {"display": [0, 0, 1, 1], "data": [0, 0, 1, 1]}})",
+         R"({"ask": "header", "picture": {"display": [0, 0, 1, 1], "data": [0, 0, 1, 1], "channels": ["R"], "x": 1}})",
+         R"({"ask": "header", "picture": {"display": [0, 0, 1, 1], "data": [0, 0, 1000000, 1], "channels": ["R"]}})",
+         R"({"ask": "header", "picture": {"display": [0, 0, 1, 1], "data": [0, 0, 1, 1], "channels": ["R"], "pixel_aspect": 0}})",
+         R"({"ask": "header", "picture": []})", R"({"ask": "header", "file": "a", "shown": 1})"})
+        EXPECT_THROW(parse_pipe_request(wrong), UsageError) << wrong;
+}
+
+TEST(HandedPictures, TheSamePictureHasTheSameFile) {
+    HandedPictures pictures;
+    const HandedLayout layout{windows_of_size(2, 1), {"R", "Z"}};
+    const std::array<float, 4> values{0.5f, 3, 0.25f, 4}; // pixel by pixel
+    const std::string pixels(reinterpret_cast<const char *>(values.data()), sizeof values);
+    const std::string path = pictures.path_of(layout, pixels);
+    const Image image = read_flat_exr(path).image;
+    EXPECT_EQ(image.windows, layout.windows);
+    EXPECT_EQ(image.at(find_channel(image.channels, "R"), 1, 0), 0.25f);
+    EXPECT_EQ(image.at(find_channel(image.channels, "Z"), 0, 0), 3);
+    std::string others = pixels;
+    others[0] ^= 1;
+    EXPECT_NE(pictures.path_of(layout, others), path);
+    EXPECT_EQ(pictures.path_of(layout, pixels), path);
+    EXPECT_THROW(pictures.path_of(layout, pixels.substr(1)), UsageError);
+    EXPECT_EQ(HandedPictures::in_words(path + ": no"), "the picture that was handed over: no");
 }
 
 } // namespace

@@ -78,8 +78,20 @@ auto find(Kept &kept, const Job &job) {
 Gatherer::Gatherer(const ToolContext &tool)
     : tool_(tool), presets_(lens_presets()), most_bytes_(memory_for_frames(tool.max_memory)) {}
 
+// The colours are those that the configuration of OpenColorIO gives a file of such a name.
+void Gatherer::take(PipeRequest &request, std::string pixels) {
+    auto &settings = request.source.settings;
+    if (!settings.contains("colorspace")) {
+        const auto config = settings.find("colorconfig");
+        settings["colorspace"] = ColourConfig(config == settings.end() ? "" : config->second)
+                                     .space_of_file(request.handed->shown ? "picture.png" : "picture.exr");
+    }
+    request.source.file = handed_.path_of(*request.handed, std::move(pixels));
+}
+
 Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
     Job job;
+    job.shown = request.shown;
     job.words = words_of(request.source, presets_);
     job.command = command_of(job.words, "picture.exr");
     if (request.level > 0) {
@@ -110,7 +122,7 @@ std::shared_ptr<const Gatherer::Made> Gatherer::make(const Job &job, const Make 
     const auto made = std::make_shared<Made>();
     const Tell tell = [&](const Notice &notice) {
         if (level_of(notice) != NoticeLevel::note)
-            made->warnings.push_back(one_line(with_options(words_of(notice))));
+            made->warnings.push_back(HandedPictures::in_words(one_line(with_options(words_of(notice)))));
     };
     made->job = job;
     made->picture = make({*tool_.progress, tell, &device_});
@@ -120,6 +132,13 @@ std::shared_ptr<const Gatherer::Made> Gatherer::make(const Job &job, const Make 
     return made;
 }
 
+void Gatherer::to_stored_colours(const Job &job, Image &image, Imf::Header &header) {
+    if (job.shown)
+        transform_colours(output_transform(job.command.colour, header), image);
+    else
+        to_exr_space(job.command.colour, "an EXR picture", image, header);
+}
+
 std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
     if (auto found = find(descriptions_, job)) return found;
     const auto made = make(job, [&](const PictureWork &work) {
@@ -127,7 +146,7 @@ std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
         const Windows windows = picture.image.windows;
         Image pixel({windows.display, {windows.data.min, windows.data.min}, windows.pixel_aspect},
                     picture.image.channels);
-        to_exr_space(job.command.colour, "an EXR picture", pixel, picture.header);
+        to_stored_colours(job, pixel, picture.header);
         picture.image = in_type(std::move(pixel), job.command.type);
         picture.image.windows.data = windows.data; // without values but for its first pixel
         return picture;
@@ -142,7 +161,7 @@ std::shared_ptr<const Gatherer::Made> Gatherer::taken(const Job &job) {
     const auto bytes_of = [](const auto &made) { return made->picture.image.values.size() * sizeof(float); };
     const auto made = make(job, [&](const PictureWork &work) {
         TakenPicture picture = take_picture(cache_, true, job.command, work);
-        to_exr_space(job.command.colour, "an EXR picture", picture.image, picture.header);
+        to_stored_colours(job, picture.image, picture.header);
         picture.image = in_type(std::move(picture.image), job.command.type);
         return picture;
     });

@@ -28,6 +28,10 @@ public:
         std::string pixels; // or the file of a header
     };
 
+    // Takes the pixels of the picture that the request hands over; its source is then a file. Throws UsageError if they are
+    // not what it says.
+    void take(PipeRequest &request, std::string pixels);
+
     // Throws as dof-gather does.
     // facts: focus, sharp range, largest CoC and the like (see lens_facts()).
     // header: windows and channels; `pixels` is an EXR file of one pixel, with the header that dof-gather writes.
@@ -39,8 +43,11 @@ private:
     struct Job {
         Words words;
         std::map<std::string, std::string> stamps; // by file; a file that is written again has another
+        bool shown = false;                        // see PipeRequest
         GatherCommand command;
-        bool operator==(const Job &other) const { return words == other.words && stamps == other.stamps; }
+        bool operator==(const Job &other) const {
+            return words == other.words && stamps == other.stamps && shown == other.shown;
+        }
     };
     struct Made {
         Job job;
@@ -54,6 +61,7 @@ private:
     std::shared_ptr<const Made> taken(const Job &job);
     using Make = std::function<TakenPicture(const PictureWork &work)>;
     std::shared_ptr<const Made> make(const Job &job, const Make &make);
+    static void to_stored_colours(const Job &job, Image &image, Imf::Header &header);
     Answer facts(const Job &job);
     static Answer header(const Made &made);
     static Answer pixels(const Made &made, const PipeRequest &request);
@@ -66,6 +74,7 @@ private:
     std::map<std::string, std::string> stamps_; // of the files that were read
     LdiCache cache_;
     GatherDevice device_;
+    HandedPictures handed_;
     Kept pictures_, descriptions_;
 };
 

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -66,6 +67,21 @@ bool write_all(int file, std::string_view bytes) {
     return true;
 }
 
+// Reads the pixels that came with a request. Returns less if the file has less.
+std::string take_pixels(std::size_t bytes) {
+    struct stat info {};
+    if (::fstat(pixel_file, &info) != 0) fail_of_system("the file for pixels", "cannot read");
+    std::string pixels(std::min(bytes, std::size_t(info.st_size)), '\0');
+    for (std::size_t done = 0; done < pixels.size();) {
+        const ssize_t count = ::pread(pixel_file, pixels.data() + done, pixels.size() - done, off_t(done));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail_of_system("the file for pixels", "cannot read");
+        if (count == 0) pixels.resize(done);
+        done += std::size_t(count);
+    }
+    return pixels;
+}
+
 // Makes the file hold these bytes alone.
 void put_pixels(std::string_view bytes) {
     if (::ftruncate(pixel_file, 0) != 0) fail_of_system("the file for pixels", "cannot empty");
@@ -76,6 +92,12 @@ void put_pixels(std::string_view bytes) {
         bytes.remove_prefix(std::size_t(written));
         at += written;
     }
+}
+
+// MLT 7.42 sets $OCIO to a configuration that does not exist, whatever the user has set.
+void forget_configuration_of_mlt() {
+    const char *config = std::getenv("OCIO");
+    if (config && std::string_view(config) == "ocio://ocio://default") ::unsetenv("OCIO");
 }
 
 // Ends the process if nobody waits for an answer any more, however long a picture still takes.
@@ -148,7 +170,9 @@ std::string answer_line(int status, std::size_t bytes, const std::string &text) 
 }
 
 std::string answer_to(Gatherer &gatherer, const std::string &line) {
-    Gatherer::Answer answer = gatherer.answer(parse_pipe_request(line));
+    PipeRequest request = parse_pipe_request(line);
+    if (request.handed) gatherer.take(request, take_pixels(request.handed->bytes()));
+    Gatherer::Answer answer = gatherer.answer(request);
     put_pixels(answer.pixels);
     return answer_line(200, answer.pixels.size(),
                        answer.said.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -162,7 +186,8 @@ std::optional<std::string> next_answer(Gatherer &gatherer, Lines &lines) {
         return answer_to(gatherer, *line);
     } catch (const std::exception &) {
         const Refusal refusal = refusal_of_exception();
-        return answer_line(refusal.status, 0, refusal.why); // text from a file may not be UTF-8
+        return answer_line(refusal.status, 0,
+                           HandedPictures::in_words(refusal.why)); // text from a file may not be UTF-8
     }
 }
 
@@ -170,6 +195,7 @@ std::optional<std::string> next_answer(Gatherer &gatherer, Lines &lines) {
 
 void answer_pipe(const ToolContext &tool) {
     require_pixel_file();
+    forget_configuration_of_mlt();
     const Ends ends;
     const Watch watch(ends.answers);
     Gatherer gatherer(tool);

@@ -4,7 +4,7 @@
 // A request is a line of JSON (pipe_request.h). An answer is "STATUS BYTES TEXT": the status 200 with facts as JSON and
 // the number of bytes in the file from its beginning; or, with 0 bytes and the reason as text, 400 if the request is
 // impossible and 500 if it failed. The first line answers nothing and says the version. The asking program may cut the
-// file off after it has read it.
+// file off after it has read it. A request may bring pixels in the same file.
 //
 // It ends with its standard input, after the requests that came before, and at once if nobody reads its answers any
 // more or the program that started it has ended.
@@ -14,7 +14,7 @@
 
 namespace sparselens {
 
-inline constexpr int pipe_version = 1;
+inline constexpr int pipe_version = 2;
 
 // Returns at the end of standard input. Throws UsageError if descriptor 3 is no file that can be written.
 void answer_pipe(const ToolContext &tool);

@@ -57,6 +57,44 @@ std::vector<std::string> channels_of(const Json &value) {
     return channels;
 }
 
+bool flag_of(const Json &value, const char *name) {
+    if (!value.is_boolean()) refuse(fmt::format("{} is neither true nor false", name));
+    return value.get<bool>();
+}
+
+float aspect_of(const Json &value) {
+    constexpr double most = 100;
+    if (!value.is_number() || !(value.get<double>() >= 1 / most && value.get<double>() <= most))
+        refuse("pixel_aspect is not a number from 0.01 to 100");
+    return value.get<float>();
+}
+
+HandedLayout layout_of(const Json &object) {
+    if (!object.is_object()) refuse("picture is not an object of JSON");
+    HandedLayout layout;
+    for (const auto &[name, value] : object.items()) {
+        if (name == "display")
+            layout.windows.display = box_of(value);
+        else if (name == "data")
+            layout.windows.data = box_of(value);
+        else if (name == "channels")
+            layout.channels = channels_of(value);
+        else if (name == "pixel_aspect")
+            layout.windows.pixel_aspect = aspect_of(value);
+        else if (name == "shown")
+            layout.shown = flag_of(value, "shown");
+        else
+            refuse("its picture has a name that is unknown");
+    }
+    if (layout.windows.display.isEmpty() || layout.windows.data.isEmpty() || layout.channels.empty())
+        refuse("its picture needs display, data and channels");
+    const Imath::Box2i &data = layout.windows.data;
+    constexpr std::int64_t most = 1 << 17; // pixels along a side
+    if (std::int64_t{data.max.x} - data.min.x >= most || std::int64_t{data.max.y} - data.min.y >= most)
+        refuse("its picture is too large");
+    return layout;
+}
+
 void take(PipeRequest &request, const std::string &name, const Json &value) {
     constexpr int most_frame = 9'999'999;
     if (name == "ask")
@@ -75,6 +113,10 @@ void take(PipeRequest &request, const std::string &name, const Json &value) {
         request.box = box_of(value);
     else if (name == "channels")
         request.channels = channels_of(value);
+    else if (name == "shown")
+        request.shown = flag_of(value, "shown");
+    else if (name == "picture")
+        request.handed = layout_of(value);
     else
         refuse("it has a name that is unknown");
 }
@@ -91,7 +133,8 @@ PipeRequest parse_pipe_request(std::string_view text) {
     if (!json.contains("ask")) refuse("it says not what to ask");
     PipeRequest request;
     for (const auto &[name, value] : json.items()) take(request, name, value);
-    if (request.source.file.empty()) refuse("it names no file");
+    if (request.source.file.empty() && !request.handed) refuse("it names no file");
+    if (!request.source.file.empty() && request.handed) refuse("it has a file and a picture");
     if ((request.ask == Ask::tile) != request.box.has_value())
         refuse("a tile has a box, and nothing else has");
     return request;

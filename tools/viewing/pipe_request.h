@@ -1,8 +1,13 @@
 // A request to dof-view --pipe: one line, one JSON object,
 // {"ask": "tile", "file": "shot.dof", "query": "fstop=2", "settings": {"focus": 3.4}, "frame": 12, "level": 1, "box": [0, 0,
-// 63, 63], "channels": ["R", "G", "B"]}.
+// 63, 63], "channels": ["R", "G", "B"], "shown": false}.
+//
+// Instead of naming a file, the asking program can put a flat picture into the file for pixels (viewing/pipe.h) before it
+// asks: {"ask": "picture", "picture": {"display": [0, 0, 95, 63], "data": [0, 0, 95, 63], "pixel_aspect": 1, "channels":
+// ["R", "G", "B", "A", "Z"], "shown": true}, "settings": {"fstop": 2}}.
 #pragma once
 
+#include "viewing/handed_pictures.h"
 #include "viewing/picture_file.h"
 
 #include <Imath/ImathBox.h>
@@ -23,6 +28,9 @@ struct PipeRequest {
     std::optional<Imath::Box2i> box = {}; // of a tile, EXR coordinates, with the last pixels included
     std::vector<std::string> channels =
         {}; // of the pixels, in this order; empty: all, in the order of the header
+    bool shown =
+        false; // the colours of the answer are those of a PNG, by `display` and `view-transform`, unrounded
+    std::optional<HandedLayout> handed = {}; // the picture that replaces the file
 };
 
 inline constexpr std::size_t longest_request = 65536; // bytes
