@@ -41,6 +41,8 @@ for name in $expected; do
     if readelf -d "$root/usr/bin/$name" | grep -E 'R(UN)?PATH'; then fail "$name looks for libraries in a folder of its own"; fi
 done
 [ -s "$root/usr/lib/sparselens/openimageio/dof.imageio.so" ] || fail "the reader for OpenImageIO is in no package"
+[ -s "$root/usr/OFX/Plugins/SparseLens.ofx.bundle/Contents/Linux-x86-64/SparseLens.ofx" ] || [ "$(uname -m)" != x86_64 ] ||
+    fail "the effect for OpenFX is in no package"
 for script in slurm/submit.sh openjd/template.yaml opencue/submit.py blender/sparselens_{views.py,blender/{__init__,panel,command}.py}; do
     [ -s "$root/usr/share/sparselens/$script" ] || fail "$script is in no package"
 done

@@ -1,0 +1,13 @@
+// What the effect tells a host about itself: contexts, pixels, clips and parameters.
+#pragma once
+
+#include "include/ofxImageEffect.h"
+
+namespace sparselens_ofx {
+
+inline constexpr const char *source_clip = "Source", *depth_clip = "Depth", *output_clip = "Output";
+
+void describe(OfxImageEffectHandle effect);
+void describe_in_context(OfxImageEffectHandle effect, OfxPropertySetHandle arguments);
+
+} // namespace sparselens_ofx
