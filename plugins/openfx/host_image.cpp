@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 
 namespace sparselens_ofx {
 
@@ -39,14 +41,18 @@ HostImage::HostImage(OfxImageEffectHandle effect, const char *name, double time)
     const std::string components = text_in(image_, kOfxImageEffectPropComponents);
     const auto format = pixel_format(depth, components);
     data_ = static_cast<char *>(pointer_in(image_, kOfxImagePropData));
-    if (!format || !data_) {
+    bounds_ = rectangle_in(image_, kOfxImagePropBounds);
+    row_bytes_ = whole_in(image_, kOfxImagePropRowBytes, 0, 0);
+    // Some hosts name another depth than that of their memory.
+    const bool fits =
+        format && bounds_.width() * std::int64_t(format->bytes()) <= std::abs(std::int64_t{row_bytes_});
+    if (!data_ || !fits) {
         suites().effects->clipReleaseImage(image_);
-        throw HostError(std::string("the clip ") + name + " has pixels that are unknown: " + depth + " " +
+        throw HostError(std::string("the clip ") + name +
+                        " has pixels that are unknown, or rows that are too short: " + depth + " " +
                         components);
     }
     format_ = *format;
-    bounds_ = rectangle_in(image_, kOfxImagePropBounds);
-    row_bytes_ = whole_in(image_, kOfxImagePropRowBytes, 0, 0);
     unpremultiplied_ = text_in(image_, kOfxImageEffectPropPreMultiplication) == kOfxImageUnPreMultiplied;
     const double aspect = number_in(image_, kOfxImagePropPixelAspectRatio, 0, 1);
     if (aspect > 0) pixel_aspect_ = aspect;

@@ -7,7 +7,7 @@ namespace sparselens_ofx {
 namespace {
 
 constexpr ParameterRow rows[] = {
-#include "parameter_rows.inc"
+#include <parameter_rows.inc> // made by the build
 };
 
 } // namespace

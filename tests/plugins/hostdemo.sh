@@ -31,6 +31,7 @@ END
 sed -i 's/net.sf.openfx:invertPlugin/org.sparselens.DepthOfField/; s/kOfxImageEffectContextFilter, NULL/argv[1], NULL/' hostDemo.cpp
 sed -i 's|d = 2.0;|const char *given = getenv(("OFX_" + getName()).c_str());\n    d = given ? atof(given) : getProperties().getDoubleProperty(kOfxParamPropDefault);|; s/b = true;/b = false;/' hostDemoParamInstance.cpp
 sed -i 's|#include "hostDemoParamInstance.h"|&\n#include "text_parameter.h"|; s|if(descriptor.getType()==kOfxParamTypeInteger)|if(descriptor.getType()==kOfxParamTypeString)\n      return new MyTextInstance(name,descriptor);\n    else &|' hostDemoEffectInstance.cpp
+sed -i 's|// data ptr|setStringProperty(kOfxImageEffectPropPixelDepth, kOfxBitDepthByte);|' hostDemoClipInstance.cpp # as its memory is
 g++ -std=gnu++14 -w -include cstring -I../include -I../../include hostDemo*.cpp ../src/*.cpp -o "$scratch/hostDemo" -lexpat -ldl -pthread || fail "hostDemo is not built"
 cd "$scratch"
 
