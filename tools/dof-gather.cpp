@@ -1,7 +1,7 @@
 // dof-gather: computes the picture that a lens takes from a layered depth image.
 #include "chain/devices.h"
 #include "chain/file_notices.h"
-#include "chain/take_picture.h"
+#include "chain/take_moments.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
@@ -32,8 +32,9 @@ Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
             points[fmt::to_string(number)] = count;
     }
     return {{"input_read", cache.read_now()},
-            {"samples_invisible", cache.last().invisible},
-            {"samples", cache.last().samples_read},
+            {"samples_invisible", picture.samples_invisible},
+            {"samples", picture.samples_read},
+            {"moments", picture.moments},
             {"channels_left_out", cache.channels_left_out()},
             {"focus_distance", focus},
             {"tiles", picture.tiles.lens_points.size()},
@@ -42,7 +43,7 @@ Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
 }
 
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
-    TakenPicture made = take_picture(cache, tool.keeps, options, {*tool.progress, tool.tell(), &device});
+    TakenPicture made = take_moments(cache, tool.keeps, options, {*tool.progress, tool.tell(), &device});
     append_history(made.header, tool, options.history);
     *tool.last_step = [&tool, stats = gather_stats(cache, made), made = std::move(made),
                        output = options.output, depth_output = options.depth_output, type = options.type,
@@ -90,6 +91,7 @@ int main(int argc, char **argv) {
                                          [options] {
                                              const std::string kept = kept_device(options->device);
                                              return kept.empty() ? options->input : kept;
-                                         }};
+                                         },
+                                     .joins_moments = true};
                       });
 }

@@ -87,6 +87,11 @@ Rows<PictureRequest> gather_rows() {
         {keyed(text("focus-pixel", "X,Y", "Focus on the front surface in this pixel, in EXR coordinates",
                     Form::pixel, "X,Y in whole pixels (e.g. 320,180)")),
          in(&PictureRequest::focus_pixel)},
+        {text("shutter-curve", "box|triangle|gaussian|FILE",
+              "How the moments of a shutter count, whose LDIs IN names by %s. FILE: lines of a time, from 0 "
+              "to 1, and a value (default: box)",
+              Form::file),
+         in(&PictureRequest::shutter_curve)},
         {text("channels", "LIST", "Channels or layers to gather, comma-separated (default: all)", Form::list),
          in(&PictureRequest::channels)}};
     return joined({{method_row()},

@@ -57,6 +57,8 @@ private:
     void prepare(std::optional<GatherWindows> made_before) {
         if (needs_gather(request_.show)) require_channels(in_);
         out_.header = in_.header;
+        out_.samples_read = in_.samples_read;
+        out_.samples_invisible = in_.invisible;
         aim();
         hold_out();
         frame_ = made_before ? std::move(*made_before) : gather_windows(request_.windows, in_);

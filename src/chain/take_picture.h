@@ -10,6 +10,7 @@
 #include "notices.h"
 #include "picture_looks.h"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -31,8 +32,9 @@ struct PictureRequest : LdiRequest {
     std::string holdout = {};    // a file
     const OpenedLdi *opened_holdout = nullptr;
     Show show = Show::picture;
-    bool front_depth = false;   // also return the depth of the front samples
-    std::string device = "cpu"; // as for choose_device() of gpu/device_list.h
+    bool front_depth = false;       // also return the depth of the front samples
+    std::string device = "cpu";     // as for choose_device() of gpu/device_list.h
+    std::string shutter_curve = {}; // for take_moments(), as in io/shutter_file.h; empty: a box
 };
 
 // The false colours of an LDI for that lens, for coc, focus and layers.
@@ -57,7 +59,9 @@ struct TakenPicture {
     Imf::Header header = {}; // of the LDI, with the camera and the lens
     Camera camera = {};      // with its focus
     ThinLens lens = {};      // in pixels of the full-size picture
-    LensTiles tiles = {};    // the choice of the lens gather
+    LensTiles tiles = {};    // the choice of the lens gather; of several moments, in the middle one
+    std::size_t moments = 1; // that the picture is the mean of
+    std::size_t samples_read = 0, samples_invisible = 0; // of all moments, as in OpenedLdi
 };
 
 // The camera of the LDI with the lens of the request, focused on the pixel, if one is given. `depth_of` returns the

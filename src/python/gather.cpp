@@ -1,6 +1,6 @@
 #include "python/gather.h"
 
-#include "chain/take_picture.h"
+#include "chain/take_moments.h"
 #include "python/job.h"
 #include "python/keywords.h"
 #include "python/told.h"
@@ -34,10 +34,11 @@ Asked asked_by(const py::kwargs &given) {
 
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Asked asked = asked_by(given);
-    const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
+    const std::vector<const OpenedLdi *> in =
+        several<OpenedLdi>(ldi, "ldi", "an Ldi, or a sequence of the moments of a shutter");
     return told_job<PictureObject>(
         asked.progress, [&](Progress &progress, const Tell &tell) -> PictureObject {
-            TakenPicture made = take_picture(in, asked, {progress, tell, &gather_device()});
+            TakenPicture made = take_moments(in, asked, {progress, tell, &gather_device()});
             return {std::move(made.image), std::move(made.header)};
         });
 }

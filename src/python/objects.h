@@ -2,6 +2,7 @@
 // addition.
 #pragma once
 
+#include "base/error.h"
 #include "chain/plan_views.h"
 #include "io/open_ldi.h"
 #include "io/open_view.h"
@@ -41,6 +42,11 @@ struct PlannedViewObject {
 template <typename Object>
 const Object &argument(const py::object &object, const char *name, const char *wanted);
 
+// Returns the objects of a sequence, or the single object. Throws TypeError, which names the argument, and UsageError if
+// there is none.
+template <typename Object>
+std::vector<const Object *> several(const py::object &given, const char *name, const char *wanted);
+
 // A message with its parameters (error.h) as keywords: depth='inverse'.
 std::string with_keywords(const std::string &message);
 
@@ -60,4 +66,16 @@ template <typename Object>
 const Object &sparselens::python::argument(const py::object &object, const char *name, const char *wanted) {
     if (!py::isinstance<Object>(object)) wrong_type(name, wanted, object);
     return object.cast<const Object &>();
+}
+
+template <typename Object>
+std::vector<const Object *> sparselens::python::several(const py::object &given, const char *name,
+                                                        const char *wanted) {
+    if (py::isinstance<Object>(given)) return {&given.cast<const Object &>()};
+    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
+    std::vector<const Object *> found;
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
+        found.push_back(&argument<Object>(py::reinterpret_borrow<py::object>(item), name, wanted));
+    if (found.empty()) throw UsageError(std::string(name) + ": there is none");
+    return found;
 }

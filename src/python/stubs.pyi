@@ -448,7 +448,7 @@ def cluster(
     Raises UsageError if the lens is unknown, and Error if several LDIs do not have one camera."""
 
 def gather(
-    ldi: Ldi,
+    ldi: Union[Ldi, Sequence[Ldi]],
     *,
     channels: Optional[Union[str, Sequence[str]]] = None,
     method: Literal["lens", "selective"] = "lens",
@@ -460,6 +460,7 @@ def gather(
     holdout: Optional[Ldi] = None,
     holdout_defocused: bool = False,
     device: Optional[str] = "cpu",
+    shutter_curve: Optional[_Path] = None,
     overscan: Literal["grow", "keep", "crop"] = "grow",
     proxy: int = 1,
     supersample: Optional[int] = None,
@@ -488,6 +489,7 @@ def gather(
 ) -> Picture:
     """Makes the picture that a lens takes of an LDI and returns a Picture. Does what dof-gather does.
 
+    ldi: an Ldi, or a sequence of the moments of a shutter, by their time, which become one picture with motion blur.
     channels: names of channels, layers or Cryptomattes, or "rgba", as a sequence or separated by commas; default: all.
     method: "lens" or "selective".
     quality: "draft", "normal" or "final"; for the method lens.
@@ -499,6 +501,8 @@ def gather(
     holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.
     device: the device that gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a
       GPU, or Error), or a part of a device's name, which may be a device in software.
+    shutter_curve: how the moments of a shutter count: "box", "triangle", "gaussian", or a file whose lines are a time,
+      from 0 to 1, and a value.
     overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
     proxy: makes a picture of 1 / proxy the size.
     supersample: this many pixels of the LDI, across and down, become one pixel of the picture (default: as its file

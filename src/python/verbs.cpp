@@ -62,18 +62,6 @@ PictureObject open_picture(const py::object &path, const py::kwargs &given) {
     return {std::move(file.image), std::move(file.header)};
 }
 
-// Returns the objects of a sequence, or the single object.
-template <typename Object>
-std::vector<const Object *> several(const py::object &given, const char *name, const char *wanted) {
-    if (py::isinstance<Object>(given)) return {&given.cast<const Object &>()};
-    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
-    std::vector<const Object *> found;
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
-        found.push_back(&argument<Object>(py::reinterpret_borrow<py::object>(item), name, wanted));
-    if (found.empty()) throw UsageError(std::string(name) + ": there is none");
-    return found;
-}
-
 WarpOptions warp_options(Keywords &keywords) {
     const auto merge = keywords.word<Merge>("merge", {{"average", Merge::average}, {"keep", Merge::keep}});
     const auto split = keywords.word<bool>("silhouettes", {{"split", true}, {"whole", false}});

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "harness/commands/each_moment.h"
 #include "harness/commands/each_picture.h"
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -258,7 +260,7 @@ std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::A
     return names;
 }
 
-// Expands a command line that asks for all views or layers into one command for each. `answered` is the exit code if
+// Expands a command line that asks for all views, layers or moments into one command for each. `answered` is the exit code if
 // --help or the like, or an error in the words, ended it.
 struct EachCommand {
     std::vector<std::vector<std::string>> commands;
@@ -280,6 +282,19 @@ struct EachCommand {
         }
         commands = std::move(expanded);
     }
+
+    // `joined`: the tool makes one output of all moments.
+    void expand_moments(bool joined) {
+        std::vector<std::vector<std::string>> expanded;
+        for (const std::vector<std::string> &words : commands)
+            if (asks_for_each_moment(words))
+                std::ranges::move(words_for_moments(words), std::back_inserter(expanded));
+            else {
+                if (!joined) refuse_moments(words);
+                expanded.push_back(words);
+            }
+        commands = std::move(expanded);
+    }
 };
 
 } // namespace
@@ -291,6 +306,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
     int worst = exit_code_of(prefix_of(name, words), [&] {
         for (const EachPicture *each : {&each_view(), &each_layer()})
             if (!all.answered) all.expand(*each, name, description, prepare);
+        if (!all.answered) all.expand_moments(FrameCommand(name, description, prepare).job.joins_moments);
     });
     if (all.answered) return *all.answered;
     if (worst != 0) return worst;

@@ -54,6 +54,9 @@ struct Job {
     // this one. Frames with different names may be worked on at the same time, on any thread, and write files only in
     // their last steps. Without this function, all frames run one after the other.
     std::function<std::string()> keeps = {};
+    // Whether it makes one output of the moments of a shutter, whose files one name with %s names. Other tools run once
+    // for each moment (commands/each_moment.h).
+    bool joins_moments = false;
 };
 
 // What the tool reads. Only tools that read files have --max-memory.

@@ -1,9 +1,11 @@
 #include "viewing/shot.h"
 
 #include "chain/channels.h"
+#include "chain/take_moments.h"
 #include "chain/words.h"
 #include "harness/one_line.h"
 #include "harness/process.h"
+#include "io/moment_files.h"
 
 #include <fmt/format.h>
 
@@ -40,7 +42,8 @@ Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext
     return [frames, &tool](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
         LdiCache cache;
-        return shot_frame(std::move(cache.load(options, tool.tell())), options.windows, options.colour);
+        return shot_frame(std::move(cache.load(middle_moment(options), tool.tell())), options.windows,
+                          options.colour);
     };
 }
 
@@ -86,7 +89,7 @@ const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) 
     };
     return &last_few(holdouts_, alike, [&] {
                 return ReadHoldout{options.holdout, frame, options.windows.proxy,
-                                   open_holdout(options, frame->in)};
+                                   open_holdout(middle_moment(options), frame->in)};
             }).ldi;
 }
 
@@ -105,9 +108,15 @@ ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, P
     request.lens.focus_distance = of->camera(options).focus_distance;
     request.focus_pixel.reset();
     request.channels = shown_channels;
+    const PictureWork work{progress, tell, &device_, watch, &looks_};
+    if (names_moments(options.input) && options.windows.proxy == 1) {
+        LdiCache cache;
+        static_cast<TakenPicture &>(out) = take_moments(cache, false, request, work);
+        return out;
+    }
+    request.shutter_curve.clear();
     request.picture.holdout = holdout(options, of);
     request.holdout.clear();
-    const PictureWork work{progress, tell, &device_, watch, &looks_};
     if (options.windows.proxy > 1) {
         static_cast<TakenPicture &>(out) = take_picture(of->in, small(of, options.windows), request, work);
     } else {

@@ -30,7 +30,8 @@ public:
     Reel::Held frame(const GatherCommand &options);
     const Reel &reel() const { return reel_; }
 
-    // The picture that dof-gather would write; one thread at a time. Throws as dof-gather does, and what `progress`
+    // The picture that dof-gather would write; of the moments of a shutter, a proxy shows the middle one. One thread at a
+    // time. Throws as dof-gather does, and what `progress`
     // throws. `watch` is told of the picture's pixels only if these are gathered directly.
     ShotPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
                       const TileWatch *watch = nullptr);

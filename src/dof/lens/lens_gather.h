@@ -11,6 +11,7 @@
 #include "../../deep/ldi.h"
 #include "../../lens/lens_looks.h"
 #include "../../lens/thin_lens.h"
+#include "../../shutter/lens_share.h"
 #include "lens_tiles.h"
 
 #include <functional>
@@ -35,6 +36,7 @@ struct TileWatch {
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
+    LensShare share = {}; // of these points, for one moment of a shutter
     // If given, only this point of the lens is used, x right, y up, [-1, 1]. Lamps stay as they are, nothing is
     // sharpened, fillers (areas that no view saw) are tinted magenta, and unknown areas stay black.
     std::optional<Imath::V2d> point = {};

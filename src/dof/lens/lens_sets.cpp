@@ -1,5 +1,7 @@
 #include "dof/lens/lens_sets.h"
 
+#include "shutter/shared_points.h"
+
 #include <algorithm>
 
 namespace sparselens {
@@ -18,11 +20,15 @@ const std::vector<LensSample> &LensSets::for_coc(float largest, std::size_t doub
     if (options_.lens_samples > 0 || options_.point) largest = 0, doubled = 0;
     const std::size_t step = step_for(largest / float(options_.across)), set = doubled * steps + step;
     std::call_once(made_[set], [&] {
-        sets_[set] = options_.point ? std::vector{through(*options_.point)}
-                                    : lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
+        sets_[set] =
+            options_.point ? std::vector{through(*options_.point)} : of_share(points_of(step) << doubled);
         if (options_.across > 1) look_from_the_middle(sets_[set]);
     });
     return sets_[set];
+}
+
+std::vector<LensSample> LensSets::of_share(std::size_t points) const {
+    return shared_points(lens_samples(aperture_, points, pixel_aspect_), options_.share);
 }
 
 LensSample LensSets::through(const Imath::V2d &point) const {

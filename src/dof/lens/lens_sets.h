@@ -33,6 +33,7 @@ private:
         final_points{288, 384, 480, 576, 896, 1024}; // up to 576 by steps of their own (lens_samples.h)
 
     LensSample through(const Imath::V2d &point) const;
+    std::vector<LensSample> of_share(std::size_t points) const;
     static std::size_t step_for(float coc);
     std::size_t points_of(std::size_t step) const;
     std::size_t of_pixel(std::size_t step) const;

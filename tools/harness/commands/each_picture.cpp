@@ -20,13 +20,13 @@ std::size_t value_of_option(const std::string &option, const std::vector<std::st
     return words.size();
 }
 
+} // namespace
+
 bool is_output_with(const std::string &placeholder, const std::vector<std::string> &words, std::size_t i) {
     if (words[i].find(placeholder) == std::string::npos) return false;
     const std::string joined = words[i].substr(0, words[i].find('='));
     return (i > 0 && is_output_word(words[i - 1])) || is_output_word(joined) || joined.starts_with("-o");
 }
-
-} // namespace
 
 const EachPicture &each_view() {
     static const EachPicture each{"--stereo-view", "%V", "view"};

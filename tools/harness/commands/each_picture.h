@@ -3,6 +3,7 @@
 // so that every picture has its own output.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ const EachPicture &each_layer();
 
 // Whether the words of a command line ask for all views or layers.
 bool asks_for_all(const EachPicture &each, const std::vector<std::string> &words);
+
+// Whether word i names an output with this placeholder in its name.
+bool is_output_with(const std::string &placeholder, const std::vector<std::string> &words, std::size_t i);
 
 // The words for one view or layer: the option names it, and the placeholder is replaced. Throws UsageError if no output
 // has the placeholder in its name.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "chain/parameters.h"
 #include "harness/commands/named_files.h"
+#include "io/moment_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
@@ -80,12 +81,25 @@ std::optional<int> number_in(std::string_view file, std::string_view before, std
     return number;
 }
 
+std::vector<int> numbers_on_disk(const std::string &name);
+
+// The numbers of the frames of which a file for the first moment of the shutter exists: moment 0 or 1.
+std::vector<int> numbers_of_first_moment(const std::string &name) {
+    for (const int width : {1, 2, 3, 4})
+        for (const int first : {0, 1})
+            if (auto found = numbers_on_disk(at_moment(name, fmt::format("{:0{}}", first, width)));
+                !found.empty())
+                return found;
+    return {};
+}
+
 // The numbers of the files on disk, ascending. Everything but the number is compared literally: OpenImageIO would treat
 // the name as a regular expression, which fails for brackets, and some expressions take forever.
 std::vector<int> numbers_on_disk(const std::string &name) {
     namespace fs = std::filesystem;
     const auto place = find_place(name);
     if (!place) return {};
+    if (names_moments(name)) return numbers_of_first_moment(name);
     const std::string before = name.substr(0, place->begin), after = name.substr(place->end);
     const std::size_t slash = before.rfind('/') + 1; // 0 if there is none
     const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),

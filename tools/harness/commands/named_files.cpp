@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/moment_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 namespace sparselens {
 
@@ -18,19 +20,30 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array output_options{"--output", "--depth-out", "--cameras"};
-constexpr std::array input_options{"--view",        "--camera",   "--depth-file", "--center", "--holdout",
-                                   "--colorconfig", "--regions",  "--plan",       "--lens",   "--aperture",
-                                   "--denoised",    "--gathered", "--recolor"};
+constexpr std::array input_options{
+    "--view", "--camera", "--depth-file", "--center",   "--holdout",  "--colorconfig", "--regions",
+    "--plan", "--lens",   "--aperture",   "--denoised", "--gathered", "--recolor",     "--shutter-curve"};
 
 bool is_input(const CLI::Option &option) {
     return option.get_positional() || is_among(input_options, option.get_name());
+}
+
+// The files that a name stands for: those of a shutter's moments, or itself.
+std::vector<std::string> files_of_moments(const std::string &name) try {
+    if (!names_moments(name)) return {name};
+    std::vector<std::string> files;
+    for (const std::string &number : moments_on_disk(name)) files.push_back(at_moment(name, number));
+    return files;
+} catch (const Error &) { // there are none yet
+    return {name};
 }
 
 void add(std::vector<NamedFile> &files, const CLI::Option &option) {
     const std::size_t step = option.get_name() == "--view" ? 2 : 1; // X,Y and the file
     const std::vector<std::string> &words = option.results();
     for (std::size_t i = step - 1; i < words.size(); i += step)
-        files.push_back({option.get_name(), words[i]});
+        for (std::string &file : files_of_moments(words[i]))
+            files.push_back({option.get_name(), std::move(file)});
 }
 
 // ldi-plan writes view_0.exr, view_1.exr, ... into the folder.

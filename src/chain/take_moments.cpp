@@ -1,0 +1,174 @@
+#include "chain/take_moments.h"
+
+#include "base/error.h"
+#include "chain/same_shutter.h"
+#include "chain/words.h"
+#include "io/moment_files.h"
+#include "io/shutter_file.h"
+#include "shutter/shutter_mean.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+// Shows the progress of several moments as that of one picture.
+class WholeProgress {
+public:
+    WholeProgress(Progress &whole, std::size_t moments) : whole_(whole) {
+        whole_.start("gathering", moments * hundred);
+    }
+
+    // The progress of the next moment.
+    Progress &next() {
+        finish();
+        reached_ = 0;
+        part_.emplace([this](const std::string &, int percent) { reach(std::size_t(percent)); },
+                      [this] { whole_.may_end(); });
+        return *part_;
+    }
+    void finish() {
+        if (part_) reach(hundred);
+    }
+
+private:
+    static constexpr std::size_t hundred = 100;
+
+    // A moment may begin a stage more than once.
+    void reach(std::size_t percent) {
+        const std::lock_guard lock(guard_);
+        if (percent <= reached_) return;
+        whole_.advance(percent - reached_);
+        reached_ = percent;
+    }
+
+    Progress &whole_;
+    std::optional<Progress> part_;
+    std::mutex guard_; // for reached_
+    std::size_t reached_ = 0;
+};
+
+// Passes each warning on once, though several moments may give it. Names of moments differ by their numbers.
+Tell once_for_all(const Tell &tell) {
+    return [tell, told = std::make_shared<std::set<std::string>>()](const Notice &notice) {
+        std::string kind = words_of(notice);
+        std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) != 0; });
+        if (level_of(notice) == NoticeLevel::note || told->insert(kind).second) tell(notice);
+    };
+}
+
+// One moment of the shutter: its name, and how it is taken.
+struct ShutterMoment {
+    std::string name;
+    std::function<TakenPicture(const PictureRequest &, const PictureWork &)> take;
+};
+
+class Shutter {
+public:
+    Shutter(std::vector<ShutterMoment> moments, const PictureRequest &request, const PictureWork &work)
+        : moments_(std::move(moments)), request_(request), progress_(work.progress, moments_.size()),
+          work_(work), tell_(once_for_all(work.tell)),
+          weights_(moment_weights(shutter_curve(request.shutter_curve), int(moments_.size()))) {}
+
+    // The middle moment goes first, because it decides on the focus.
+    TakenPicture picture() {
+        const std::size_t middle = moments_.size() / 2;
+        TakenPicture out = taken(middle);
+        if (request_.show != Show::picture) return out;
+        request_.front_depth = false;
+        if (request_.focus_pixel) request_.lens.focus_distance = out.camera.focus_distance;
+        request_.focus_pixel.reset();
+        mean_.add(out.image, weights_[middle], true);
+        for (std::size_t m = 0; m < moments_.size(); ++m)
+            if (m != middle && weights_[m] > 0) add(m, moments_[middle].name, out);
+        progress_.finish();
+        out.image = mean_.take();
+        out.header = without_stated_moment(out.header);
+        return out;
+    }
+
+private:
+    TakenPicture taken(std::size_t moment) {
+        request_.picture.gather.lens.share = {int(moment), int(moments_.size())};
+        PictureWork work{progress_.next(), tell_, work_.device, nullptr, work_.looks ? work_.looks : &looks_};
+        TakenPicture picture = moments_[moment].take(request_, work);
+        require_moment({moments_[moment].name, picture}, moment, moments_.size());
+        return picture;
+    }
+
+    void add(std::size_t moment, const std::string &middle, TakenPicture &out) {
+        const TakenPicture picture = taken(moment);
+        require_same_shutter({middle, out}, {moments_[moment].name, picture});
+        mean_.add(picture.image, weights_[moment], false);
+        out.moments += 1;
+        out.samples_read += picture.samples_read;
+        out.samples_invisible += picture.samples_invisible;
+    }
+
+    std::vector<ShutterMoment> moments_;
+    PictureRequest request_;
+    WholeProgress progress_;
+    const PictureWork &work_;
+    Tell tell_;
+    LooksReader looks_;
+    std::vector<double> weights_;
+    ShutterMean mean_;
+};
+
+// The request for the files of one moment.
+PictureRequest request_at(PictureRequest request, const std::string &number) {
+    for (std::string *name :
+         {&request.input, &request.holdout, &request.recolor, &request.depth.picture.depth_file})
+        *name = at_moment(*name, number);
+    return request;
+}
+
+void require_several(const PictureRequest &request, bool several) {
+    if (!several && !request.shutter_curve.empty())
+        throw UsageError("`shutter_curve`: needs the moments of a shutter, each an LDI (docs/motion.md)");
+}
+
+} // namespace
+
+TakenPicture take_moments(LdiCache &cache, bool keep, const PictureRequest &request,
+                          const PictureWork &work) {
+    const bool several = names_moments(request.input);
+    require_several(request, several);
+    if (!several) return take_picture(cache, keep, request, work);
+    std::vector<ShutterMoment> moments;
+    for (const std::string &number : moments_on_disk(request.input))
+        moments.push_back({at_moment(request.input, number),
+                           [&cache, number](const PictureRequest &all, const PictureWork &by) {
+                               return take_picture(cache, false, request_at(all, number), by);
+                           }});
+    return Shutter(std::move(moments), request, work).picture();
+}
+
+TakenPicture take_moments(std::span<const OpenedLdi *const> ldis, const PictureRequest &request,
+                          const PictureWork &work) {
+    require_several(request, ldis.size() > 1);
+    if (ldis.size() == 1) return take_picture(*ldis[0], request, work);
+    std::vector<ShutterMoment> moments;
+    for (const OpenedLdi *ldi : ldis)
+        moments.push_back({ldi->name, [ldi](const PictureRequest &moment, const PictureWork &by) {
+                               return take_picture(*ldi, moment, by);
+                           }});
+    return Shutter(std::move(moments), request, work).picture();
+}
+
+PictureRequest middle_moment(const PictureRequest &request) {
+    if (!names_moments(request.input)) return request;
+    const std::vector<std::string> numbers = moments_on_disk(request.input);
+    return request_at(request, numbers[numbers.size() / 2]);
+}
+
+} // namespace sparselens

@@ -1,0 +1,26 @@
+// Takes the one picture of the moments of a shutter: each moment is gathered through its share of the lens points, one
+// after the other, and their mean is the picture (shutter/shutter_mean.h). Depth and ids, which have no mean, are those
+// of the middle moment, as are the camera and the header. If false colours are asked for, they are those of the middle
+// moment.
+#pragma once
+
+#include "take_picture.h"
+
+#include <span>
+
+namespace sparselens {
+
+// Takes the picture of a file as take_picture() does; if its name has %s, of the files of a shutter's moments. Files
+// that the request names beside it (a holdout, colours, depths) are those of a moment too if their names have %s.
+// `keep` only matters for a single file. Throws Error, naming the file, if moments differ in size, channels, colour
+// space, or by more of the lens than can change while a shutter is open.
+TakenPicture take_moments(LdiCache &cache, bool keep, const PictureRequest &request, const PictureWork &work);
+
+// The same for LDIs in memory, at least one, by their time. One is a still.
+TakenPicture take_moments(std::span<const OpenedLdi *const> ldis, const PictureRequest &request,
+                          const PictureWork &work);
+
+// The request for the file of the middle moment, if its name has %s; else the same request.
+PictureRequest middle_moment(const PictureRequest &request);
+
+} // namespace sparselens

@@ -1,0 +1,96 @@
+#include "io/moment_files.h"
+
+#include "base/error.h"
+#include "io/exr/header_edit.h"
+
+#include <ImfIntAttribute.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view placeholder = "%s";
+constexpr const char *moment_name = "sparselens:moment", *moments_name = "sparselens:moments";
+
+// The number that a text of digits spells; a longer text is no number of a moment.
+std::optional<int> number_in(std::string_view text) {
+    constexpr std::size_t most_digits = 6;
+    if (text.empty() || text.size() > most_digits ||
+        text.find_first_not_of("0123456789") != std::string_view::npos)
+        return {};
+    int number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+// The numbers of files that exist, with their spelling.
+std::vector<std::pair<int, std::string>> found_on_disk(const std::string &path) {
+    const std::size_t at = path.find(placeholder), slash = path.rfind('/', at) + 1; // 0 if there is none
+    const std::string folder = slash > 0 ? path.substr(0, slash) : ".",
+                      first = path.substr(slash, at - slash), after = path.substr(at + placeholder.size()),
+                      last = after.substr(0, after.find('/'));
+    std::vector<std::pair<int, std::string>> found;
+    std::error_code error, missing; // a folder that is not there has no files
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.size() <= first.size() + last.size() || !name.starts_with(first) || !name.ends_with(last))
+            continue;
+        const std::string middle = name.substr(first.size(), name.size() - first.size() - last.size());
+        const std::optional<int> number = number_in(middle);
+        if (number && fs::exists(at_moment(path, middle), missing)) found.emplace_back(*number, middle);
+    }
+    std::ranges::sort(found);
+    return found;
+}
+
+} // namespace
+
+bool names_moments(const std::string &path) {
+    std::error_code error;
+    return path.find(placeholder) != std::string::npos && !fs::exists(path, error);
+}
+
+std::string at_moment(std::string path, const std::string &number) {
+    for (std::size_t at = path.find(placeholder); at != std::string::npos;
+         at = path.find(placeholder, at + number.size()))
+        path.replace(at, placeholder.size(), number);
+    return path;
+}
+
+std::vector<std::string> moments_on_disk(const std::string &path) {
+    const auto found = found_on_disk(path);
+    if (found.empty())
+        throw Error(fmt::format("{}: there is no such file; %s stands for the number of a moment, as in {}",
+                                path, at_moment(path, "0")));
+    std::vector<std::string> numbers;
+    for (const auto &[number, spelled] : found) numbers.push_back(spelled);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (found[i].first != found.front().first + int(i))
+            throw Error(fmt::format("{}: the moments must be numbered without a gap, and there are {}", path,
+                                    fmt::join(numbers, ", ")));
+    return numbers;
+}
+
+std::optional<StatedMoment> stated_moment(const Imf::Header &header) {
+    const auto *moment = header.findTypedAttribute<Imf::IntAttribute>(moment_name);
+    const auto *moments = header.findTypedAttribute<Imf::IntAttribute>(moments_name);
+    if (!moment || !moments) return {};
+    return StatedMoment{moment->value(), moments->value()};
+}
+
+Imf::Header without_stated_moment(const Imf::Header &header) {
+    return without_attribute(without_attribute(header, moment_name), moments_name);
+}
+
+} // namespace sparselens

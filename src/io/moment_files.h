@@ -1,0 +1,30 @@
+// Files of the moments of one shutter. %s in a name stands for the number of a moment: shot.0001_%s.exr are
+// shot.0001_0.exr, shot.0001_1.exr, ...
+#pragma once
+
+#include <ImfHeader.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+// Whether the name has %s, and is not the name of an existing file.
+bool names_moments(const std::string &path);
+
+// The name with the number in the place of each %s.
+std::string at_moment(std::string path, const std::string &number);
+
+// The numbers of the moments that exist, as the files spell them, ascending. Throws Error if there is none, or if one
+// is missing in between.
+std::vector<std::string> moments_on_disk(const std::string &path);
+
+// Which moment of how many a picture shows, as its header states (from 0), if it does.
+struct StatedMoment {
+    int moment, moments;
+};
+std::optional<StatedMoment> stated_moment(const Imf::Header &header);
+Imf::Header without_stated_moment(const Imf::Header &header);
+
+} // namespace sparselens

@@ -1,0 +1,39 @@
+#include "shutter/shutter_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sparselens {
+
+ShutterCurve box_shutter() { return {{{0, 1}, {1, 1}}}; }
+
+ShutterCurve triangle_shutter() { return {{{0, 0}, {0.5, 1}, {1, 0}}}; }
+
+ShutterCurve gaussian_shutter() {
+    constexpr int pieces = 1024;
+    ShutterCurve curve;
+    for (int i = 0; i <= pieces; ++i) {
+        const double time = double(i) / pieces, deviations = (time - 0.5) * 6;
+        curve.points.push_back({time, std::exp(-0.5 * deviations * deviations)});
+    }
+    return curve;
+}
+
+// Times are counted in moments, so that a box gives each moment exactly the same weight.
+std::vector<double> moment_weights(const ShutterCurve &curve, int moments) {
+    std::vector<double> weights(std::size_t(moments), 0.0);
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+        const auto &[from_time, from] = curve.points[i];
+        const auto &[to_time, to] = curve.points[i + 1];
+        const double begin = from_time * moments, end = to_time * moments;
+        for (int m = int(begin); m < moments && m < end; ++m) {
+            const double first = std::max(begin, double(m)), last = std::min(end, m + 1.0);
+            const double middle = ((first + last) / 2 - begin) / (end - begin);
+            weights[std::size_t(m)] += std::lerp(from, to, middle) * (last - first);
+        }
+    }
+    return weights;
+}
+
+} // namespace sparselens

@@ -1,0 +1,26 @@
+// How much light a shutter passes while it is open, and what each of its moments counts.
+#pragma once
+
+#include <vector>
+
+namespace sparselens {
+
+// Linear between its points, whose times ascend from 0, when the shutter opens, to 1, when it closes. Values are at
+// least 0, in any unit.
+struct ShutterCurve {
+    struct Point {
+        double time, value;
+    };
+    std::vector<Point> points;
+};
+
+ShutterCurve box_shutter();
+ShutterCurve triangle_shutter();
+// Centred, with a standard deviation of a sixth of the shutter's time.
+ShutterCurve gaussian_shutter();
+
+// The weight of each of `moments` (at least 1) equal parts of the shutter's time: the mean of the curve there. A moment
+// stands in the middle of its part.
+std::vector<double> moment_weights(const ShutterCurve &curve, int moments);
+
+} // namespace sparselens
