@@ -172,6 +172,21 @@ def test_gather_sub_pixels(views, names, tool, tmp_path):
     assert (picture.width, picture.height) == (16, 11)
 
 
+def test_moments(clustered, warped, tool, tmp_path):
+    files = [clustered, warped, clustered]
+    for number, file in enumerate(files):
+        (tmp_path / f"ldi_{number}.exr").write_bytes(file.read_bytes())
+    tool("dof-gather", tmp_path / "ldi_%s.exr", "-o", tmp_path / "tool.exr", "--shutter-curve", "triangle")
+    ldis = [sparselens.open_ldi(file) for file in files]
+    picture = sparselens.gather(ldis, shutter_curve="triangle")
+    assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, picture)
+    assert numpy.array_equal(sparselens.gather(ldis[:1]).planes, sparselens.gather(ldis[0]).planes)
+    with pytest.raises(sparselens.UsageError, match="shutter_curve: needs the moments of a shutter"):
+        sparselens.gather(ldis[0], shutter_curve="box")
+    with pytest.raises(TypeError, match="an Ldi, or a sequence of the moments of a shutter"):
+        sparselens.gather([ldis[0], 3])
+
+
 def test_missing_overscan_is_warned_of():
     """A lamp at the border, with a disc 4.7 pixels across, and no lamp there."""
     for lamp in (7 * 40, 15 * 40 + 20):
