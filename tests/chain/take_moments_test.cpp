@@ -130,7 +130,7 @@ TEST(TakeMoments, CoveragesAddUpToOne) {
     }
 }
 
-// In focus, a dot that moves a pixel each moment is a streak.
+// A dot in focus that moves a pixel each moment is a streak.
 TEST(TakeMoments, InFocusAreTheExactMean) {
     std::vector<OpenedLdi> moments;
     for (int m = 0; m < 8; ++m)

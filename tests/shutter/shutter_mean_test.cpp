@@ -53,7 +53,7 @@ TEST(ShutterMean, AveragesLightAndDataAndTakesIdsFromTheMiddle) {
     }
 }
 
-// Of ids 1, 2, 3 the pixel has 0.75/4, (0.25 + 3 * 0.375)/4, 3 * 0.125/4: the two largest stay.
+// Ids 1, 2, 3 cover 0.75/4, (0.25 + 3 * 0.375)/4, 3 * 0.125/4: the two largest stay.
 TEST(ShutterMean, RanksTheIdsOfAMatteAnew) {
     ShutterMean mean;
     mean.add(picture(1, first), 1, true);
