@@ -45,7 +45,7 @@ done
 for script in "${scripts[@]}"; do named "$script"; done
 # Options exist in a tool's own help, in a script of share/, or in another program.
 for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--[a-z][a-z_-]+' >options
-cat "$source_dir"/share/{blender/sparselens_blender/command.py,opencue/submit.py,slurm/submit.sh} >scripts
+cat "$source_dir"/share/{blender/sparselens_blender/options.py,opencue/submit.py,slurm/submit.sh} >scripts
 grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
 cat >>options <<'END'
 --add

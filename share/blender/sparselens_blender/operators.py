@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 
-from . import nodes, tools, unpack
+from . import nodes
 from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
 from .finishing import Finishing
@@ -219,47 +219,4 @@ class SPARSELENS_OT_make_nodes(bpy.types.Operator):
             return {"CANCELLED"}
         self.report({"INFO"}, "In the compositor: Add > Group > %s"
                     % group.name)
-        return {"FINISHED"}
-
-
-class SPARSELENS_OT_find_tools(bpy.types.Operator):
-    """Look for sparselens' tools, and say which version is found where"""
-
-    bl_idname = "sparselens.find_tools"
-    bl_label = "Test"
-
-    def execute(self, context):
-        try:
-            folder, where = tools.find(chosen_folder())
-            text = "%s, %s: %s" % (tools.version(folder), where, folder)
-        except ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, text)
-        return {"FINISHED"}
-
-
-class SPARSELENS_OT_install_tools(bpy.types.Operator):
-    """Unpack the archive of sparselens' tools for this add-on: sparselens-VERSION-linux-x86_64.tar.xz"""
-
-    bl_idname = "sparselens.install_tools"
-    bl_label = "Install Tools"
-
-    filepath: bpy.props.StringProperty(subtype="FILE_PATH")
-    filter_glob: bpy.props.StringProperty(default="*.tar.xz",
-                                          options={"HIDDEN"})
-
-    def invoke(self, context, event):
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def execute(self, context):
-        try:
-            folder = unpack.unpack(bpy.path.abspath(self.filepath),
-                                   tools.folder_of_archives())
-            text = "%s, installed: %s" % (tools.version(folder), folder)
-        except ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, text)
         return {"FINISHED"}

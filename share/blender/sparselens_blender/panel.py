@@ -8,11 +8,12 @@ import bpy
 
 from . import looks, taking
 from .operators import (
-    SPARSELENS_OT_find_tools, SPARSELENS_OT_finish,
-    SPARSELENS_OT_install_tools, SPARSELENS_OT_make_nodes,
+    SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
     SPARSELENS_OT_take_picture, frames_of)
 from .shots import picture_size
+from .tool_operators import (
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_install_tools)
 
 
 SPARSELENS_Looks = type("SPARSELENS_Looks", (bpy.types.PropertyGroup,),
@@ -107,11 +108,16 @@ class SPARSELENS_Preferences(bpy.types.AddonPreferences):
         self.layout.operator("sparselens.install_tools")
 
 
-class SPARSELENS_PT_panel(bpy.types.Panel):
-    bl_label = "sparselens"
+class InCamera:
+    """Where the panels are: in the properties of the camera."""
+
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "data"
+
+
+class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
+    bl_label = "sparselens"
 
     @classmethod
     def poll(cls, context):
@@ -148,12 +154,9 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.operator("sparselens.make_nodes")
 
 
-class SPARSELENS_PT_looks(bpy.types.Panel):
+class SPARSELENS_PT_looks(InCamera, bpy.types.Panel):
     bl_label = "Looks"
     bl_parent_id = "SPARSELENS_PT_panel"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "data"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):

@@ -42,7 +42,7 @@ def format_of(name, scene):
 
 
 class Pictures:
-    """Views, LDIs and pictures of frames; options as in command.py."""
+    """Views, LDIs and pictures of frames; options as in options.py."""
 
     render_again = "if more than the lens has changed, give --again"
 
