@@ -7,7 +7,7 @@ size=${2:-480x270} truth_samples=${3:-96} samples=${4:-16}
 
 # rendered KIND LAST: renders the views of frames 1 to LAST of KIND.blend, and the truth, into the folder KIND.
 rendered() {
-    in_blender "$1.blend" -P "$views" -- --overscan 0 -o "$1" --frames "1-$2" --samples "$samples"
+    in_blender "$1.blend" -P "$views" -- "${plain[@]}" -o "$1" --frames "1-$2" --samples "$samples"
     in_blender "$1.blend" -P "$variants" -- render "$truth_samples" 1 "$2" "$PWD/$1/truth.####.exr"
 }
 
@@ -47,7 +47,7 @@ better "$film" 38 0 "transparent film"
 # the whole.
 for part in ball others; do
     variant still $part
-    in_blender $part.blend -P "$views" -- --overscan 0 -o $part --samples "$samples"
+    in_blender $part.blend -P "$views" -- "${plain[@]}" -o $part --samples "$samples"
     "$bin/ldi-warp" $part/center.exr $part/view_*.exr -o $part.ldi.exr
 done
 "$bin/dof-gather" ball.ldi.exr --holdout others.ldi.exr --holdout-defocused -o ball.exr

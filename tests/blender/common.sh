@@ -6,6 +6,9 @@ scene=$source_dir/tests/blender/scene.py
 variants=$source_dir/tests/blender/variants.py
 views=$source_dir/share/blender/sparselens_views.py
 
+# Views of the picture's own size and pixels, whatever the scene would gain from others.
+plain=(--overscan 0 --supersample 1)
+
 decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
 # better A B BY WHAT: A is at least B + BY; all in dB.
 better() { awk -v a="$1" -v b="$2" -v by="$3" 'BEGIN { exit !(a >= b + by) }' || fail "$4: $1 dB against $2, not $3 better"; }
@@ -33,6 +36,8 @@ eevee_runs() {
 }
 # variant FROM KIND: makes KIND.blend of FROM.blend.
 variant() { in_blender "$1.blend" -P "$variants" -- "$2" "$PWD/$2.blend"; }
+# each_variant FROM KIND...: makes KIND.blend of FROM.blend, for each of them.
+each_variant() { in_blender "$1.blend" -P "$variants" -- each "${@:2}"; }
 # defocused OUT CENTER VIEW...: the shell recipe.
 defocused() {
     local out=$1

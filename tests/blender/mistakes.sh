@@ -8,14 +8,14 @@ same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
 # Two view layers: a file that holds one of them says which; from a file that holds both, the tools take the named one,
 # with its own depth and mattes.
 variant small layers
-in_blender layers.blend -P "$views" -- --overscan 0 -o both --samples 4 --views 2 --multilayer
-in_blender layers.blend -P "$views" -- --overscan 0 -o either --samples 4 --views 0
+in_blender layers.blend -P "$views" -- "${plain[@]}" -o both --samples 4 --views 2 --multilayer
+in_blender layers.blend -P "$views" -- "${plain[@]}" -o either --samples 4 --views 0
 grep -q "warning: the scene renders 2 view layers, back, front, of which the files hold 'back' alone" said || fail "layers: $(cat said)"
 fails_saying 2 'both/center.exr: holds several pictures, back.Combined and front.Combined: give --layer' \
     "$bin/ldi-warp" both/center.exr both/view_0.exr both/view_1.exr -o x.exr
 for layer in back front; do
-    in_blender layers.blend -P "$views" -- --overscan 0 -o $layer --samples 4 --views 2 --layer $layer
-    in_blender layers.blend -P "$views" -- --overscan 0 -o all_of_$layer --samples 4 --views 0 --layer $layer --multilayer
+    in_blender layers.blend -P "$views" -- "${plain[@]}" -o $layer --samples 4 --views 2 --layer $layer
+    in_blender layers.blend -P "$views" -- "${plain[@]}" -o all_of_$layer --samples 4 --views 0 --layer $layer --multilayer
     if grep -q warning said; then fail "--layer $layer: $(cat said)"; fi
     exits 0 "$bin/ldi-warp" --layer $layer both/center.exr both/view_0.exr both/view_1.exr -o both.ldi.exr
     exits 0 "$bin/ldi-warp" $layer/center.exr $layer/view_0.exr $layer/view_1.exr -o one.ldi.exr
@@ -26,7 +26,7 @@ for layer in back front; do
 done
 picture differ back/center.exr front/center.exr || fail "two view layers are one picture"
 same either/center.exr back/center.exr "what is written without --layer"
-exits 1 blender -b layers.blend -P "$views" -- --overscan 0 -o none --layer hero
+exits 1 blender -b layers.blend -P "$views" -- "${plain[@]}" -o none --layer hero
 grep -q "no view layer 'hero'; it has: back, front" stderr || fail "--layer hero: $(cat stderr)"
 echo "two view layers: each by its own depth"
 
@@ -45,7 +45,7 @@ echo "depth of field that is on: said"
 
 # Cameras aimed at the focus, like the eyes of a stereo pair with toe-in.
 variant large toe_rim,pinhole
-in_blender toe_rim,pinhole.blend -P "$views" -- --overscan 0 -o toe --samples 8 --views 0
+in_blender toe_rim,pinhole.blend -P "$views" -- "${plain[@]}" -o toe --samples 8 --views 0
 exits 1 "$bin/ldi-warp" toe/center_L.exr toe/center_R.exr -o x.exr
 grep -q 'center_R.exr: .*turned' stderr || fail "a turned view by its matrix: $(cat stderr)"
 exits 0 "$bin/ldi-warp" toe/center_L.exr --view 0.05,0 toe/center_R.exr -o x.exr

@@ -28,7 +28,7 @@ best_node() {
 }
 
 in_blender -P "$scene" -- CYCLES "$size" save "$PWD/cycles.blend"
-in_blender cycles.blend -P "$views" -- --overscan 0 -o cycles --views 4 --samples "$samples"
+in_blender cycles.blend -P "$views" -- "${plain[@]}" -o cycles --views 4 --samples "$samples"
 in_blender cycles.blend -P "$scene" -- CYCLES "$size" truth "$truth_samples" "$PWD/truth.exr"
 started=$(date +%s.%N)
 defocused picture.exr cycles/center.exr cycles/view_*.exr
@@ -39,7 +39,7 @@ better "$ours" "$node" 12 Cycles
 
 # A plan, rendered by its rectangles, with several files per view.
 "$bin/ldi-plan" cycles/center.exr --noise 0 -o plan.json >/dev/null
-in_blender cycles.blend -P "$views" -- --overscan 0 -o planned --plan plan.json --samples "$samples"
+in_blender cycles.blend -P "$views" -- "${plain[@]}" -o planned --plan plan.json --samples "$samples"
 "$bin/ldi-warp" cycles/center.exr planned/view_*.exr -o planned.ldi.exr
 "$bin/dof-gather" planned.ldi.exr -o planned.exr
 echo "Cycles, as planned: $(decibels planned.exr truth.exr) dB"
@@ -47,8 +47,8 @@ better "$(decibels planned.exr truth.exr)" "$node" 9 "Cycles, as planned"
 
 in_blender cycles.blend -P "$scene" -- BLENDER_EEVEE "$size" save "$PWD/eevee.blend"
 eevee_runs eevee || exit 0
-in_eevee eevee.blend -P "$views" -- --overscan 0 -o eevee --views 4
-in_eevee eevee.blend -P "$views" -- --overscan 0 -o lens --views 0 --lens-views "$lens_views" --samples 4
+in_eevee eevee.blend -P "$views" -- "${plain[@]}" -o eevee --views 4
+in_eevee eevee.blend -P "$views" -- "${plain[@]}" -o lens --views 0 --lens-views "$lens_views" --samples 4
 "$bin/dof-accumulate" lens/lens_*.exr --center lens/center.exr -o eevee_truth.exr
 defocused eevee.exr eevee/center.exr eevee/view_*.exr
 ours=$(decibels eevee.exr eevee_truth.exr) node=$(best_node eevee eevee_truth.exr)

@@ -3,6 +3,8 @@
     blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
         render: renders the views into VIEWS; take: takes the picture; finish: finishes it; focus D, fstop N, blades N:
         sets the lens; frame N;
+        rename: gives the scene, the camera and its lens other names; camera NAME: uses this camera, which is made,
+        a little apart, if it is not there; scene NAME: shows this scene, which is made with its own camera and folder;
         reload FILE.blend: saves the file under this name, and opens it; move: moves the camera; refuse PATTERN: taking
         the picture gives this error, on one line; refuse-finish, refuse-render PATTERN: finishing and rendering do; stop: begins a render and a
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
@@ -49,9 +51,12 @@ def said_by(operator):
         return str(error)
 
 
-def image_of(name="sparselens, Scene"):
+def image_of():
+    name = bpy.context.scene.name
     found = [image for image in bpy.data.images if image.get("sparselens") == name]
-    check(len(found) == 1, "%d images of %s" % (len(found), name))
+    check(len(found) == 1 and found[0].name == "sparselens, " + name, "images of %s: %s" % (name, found))
+    images = [image for image in bpy.data.images if image.get("sparselens")]
+    check(all(image["sparselens"] in bpy.data.scenes for image in images), "an image is of no scene: %s" % images)
     return found[0]
 
 
@@ -79,6 +84,36 @@ def refuse(pattern, operator="take_picture"):
     check(re.fullmatch("Error: [^\n]*%s[^\n]*\n?" % pattern, said), "not '%s': %s" % (pattern, said))
 
 
+def rename():
+    scene = bpy.context.scene
+    scene.name, scene.camera.name, scene.camera.data.name = "Renamed", "Hero", "Prime"
+    scene.view_layers[0].name = "Beauty"
+
+
+def use_camera(name):
+    scene = bpy.context.scene
+    if name not in scene.objects:
+        other = bpy.data.objects.new(name, scene.camera.data.copy())
+        other.matrix_world = scene.camera.matrix_world.copy()
+        other.location.x += 0.3
+        scene.collection.objects.link(other)
+    scene.camera = scene.objects[name]
+    bpy.context.view_layer.update()
+
+
+def show_scene(name):
+    scene = bpy.data.scenes.get(name)
+    if scene is None:
+        scene = bpy.context.scene.copy()  # with its collections and settings
+        scene.name, scene.sparselens.folder = name, scene.sparselens.folder + "-" + name
+        scene.camera = bpy.context.scene.camera.copy()
+        scene.camera.data = scene.camera.data.copy()
+        scene.camera.location.x += 0.3
+        scene.collection.objects.link(scene.camera)
+    bpy.context.window.scene = scene
+    bpy.context.view_layer.update()
+
+
 def stop(addon):
     """Stops as Esc does, which needs a window: tests/blender/window.sh presses it."""
     scene = bpy.context.scene
@@ -87,7 +122,7 @@ def stop(addon):
         views = [("center", (0, 0), None)]
         rendering = addon.bit_by_bit.Rendering(scene, addon.renders.views_steps(
             scene, [scene.frame_current], scene.sparselens.folder, lambda frame: views, addon.shots.eyes_of(scene),
-            addon.renders.Manner(overscan=0), addon.renders.Count()))
+            addon.renders.Manner(overscan=0, supersample=1), addon.renders.Count()))
         rendering.begin()
         next(rendering.steps)
         check(scene.camera.name == "sparselens view", "the render has not begun")
@@ -157,6 +192,7 @@ def main(folder, views, *actions):
     scene.cycles.samples = 4
     scene.sparselens.folder, scene.sparselens.views = views, 2
     scene.sparselens.overscan_auto, scene.sparselens.overscan = False, 4
+    scene.sparselens.supersample_auto = False
     actions = list(actions)
     while actions:
         scene, action = bpy.context.scene, actions.pop(0)
@@ -176,6 +212,12 @@ def main(folder, views, *actions):
         elif action == "move":
             scene.camera.location.x += 0.1
             bpy.context.view_layer.update()
+        elif action == "rename":
+            rename()
+        elif action == "camera":
+            use_camera(actions.pop(0))
+        elif action == "scene":
+            show_scene(actions.pop(0))
         elif action == "reload":  # into this file
             addon.taking.start_following(addon.taking.lens_state(scene))
             bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0))

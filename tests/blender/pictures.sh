@@ -63,6 +63,23 @@ same looked/0003.exr "a look that is keyed, frame 3"
 press small.blend still take reload "$PWD/saved.blend" focus 3.5 take
 by_hand still "" --focus-distance 3.5
 same still/picture.exr "after saving and opening"
+# Names may change, and each camera and each scene has its own picture.
+press small.blend still focus 3 take rename focus 2.5 take
+by_hand still "" --focus-distance 2.5
+same still/picture.exr "renamed"
+press small.blend still camera Other refuse "camera 'Other' has been moved or changed.*: press Render Views" camera Camera focus 3 take
+by_hand still "" --focus-distance 3
+same still/picture.exr "one of two cameras"
+press small.blend still scene Other refuse 'still-Other/center.exr is not there' render focus 2.5 take scene Scene focus 3.5 take scene Other focus 4.5 take
+by_hand still "" --focus-distance 3.5
+same still/picture.exr "the first of two scenes"
+by_hand still-Other "" --focus-distance 4.5
+same still-Other/picture.exr "the second of two scenes"
+if picture same still/center.exr still-Other/center.exr >found 2>&1; then fail "two scenes have one camera"; fi
+# Views with sub-pixels, which the files tell.
+press small.blend fine set supersample=2 render set supersample_auto=True take set supersample_auto=False set supersample=1 refuse "or the picture's size"
+by_hand fine ""
+same fine/picture.exr "views of twice the size"
 press small.blend still follow 2
 by_hand still "" --focus-distance 2
 same still/picture.exr "followed"
@@ -96,6 +113,12 @@ if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=24k tmpfs full 2
     left=$(ls -A full)
     umount full
     [ -z "$left" ] || fail "a full disk: left are $left"
+    mount -t tmpfs -o size=$(($(cat still/center.exr still/view_?.exr | wc -c) / 1024 + 40))k tmpfs full
+    cp still/center.exr still/view_?.exr full
+    press small.blend full refuse 'ldi-warp: .*No space left on device'
+    left=$(ls -A full)
+    umount full
+    [ "$left" = "$(cd still && echo center.exr view_?.exr | tr ' ' '\n')" ] || fail "a full disk, Take Picture: left are $left"
 else
     echo "skipped: the full disk: no tmpfs can be mounted"
 fi
@@ -175,7 +198,7 @@ again() { # RENDERED EXPRESSION OPTION...
     local rendered=$1 expression=$2
     shift 2
     quietly blender --python-exit-code 1 -b lens.blend --python-expr "import bpy; scene = bpy.context.scene; camera = scene.camera; dof = camera.data.dof
-$expression" -P "$views" -- --picture --frames 1 --samples 4 --views 2 --overscan 0 -o "$PWD/kept/#.exr" "$@"
+$expression" -P "$views" -- --picture --frames 1 --samples 4 --views 2 "${plain[@]}" -o "$PWD/kept/#.exr" "$@"
     grep -Eq "of $rendered views? rendered and $((3 - rendered)) kept" said || fail "$expression $*: $(tail -n 3 said)"
 }
 again 3 ""
@@ -213,7 +236,7 @@ same film2/picture.0002.exr "Finish Frames"
 echo "--picture --finish: dof-finish's bits, and no rays twice"
 
 # The last line of a views-only run gives their number.
-in_blender small.blend -P "$views" -- -o narrow --samples 1 --views 1 --overscan 0
+in_blender small.blend -P "$views" -- -o narrow --samples 1 --views 1 "${plain[@]}"
 grep -q '^sparselens_views.py: 2 views in narrow$' said || fail "the last line: $(tail -n 3 said)"
 
 # Both eyes of a stereo scene, and the chosen one of several view layers.

@@ -8,7 +8,7 @@ blender -b --python-expr 'import bpy, sys; sys.exit(0 if hasattr(bpy.ops.wm, "us
     skip "needs a Blender with USD"
 in_blender -P "$scene" -- CYCLES "$size" save "$PWD/still.blend"
 in_blender still.blend -P "$scene" -- CYCLES "$size" truth "$truth_samples" "$PWD/truth.exr"
-in_blender still.blend -P "$views" -- --overscan 0 -o script --samples "$samples"
+in_blender still.blend -P "$views" -- "${plain[@]}" -o script --samples "$samples"
 defocused script.exr script/center.exr script/view_{0..3}.exr
 
 exits 0 "$bin/ldi-plan" script/center.exr -o plan.json --views 0 --cameras shot.usda --up-axis Z

@@ -2,14 +2,15 @@
 
     blender -b SCENE.blend -P variants.py -- KIND[,KIND...] OUT.blend
         KIND: a function below whose name begins with make_
-    blender -b SCENE.blend -P variants.py -- still FRAME OUT.blend
-        the same frame with a camera that nothing animates
+    blender -b SCENE.blend -P variants.py -- each KIND[,KIND...] ...
+        the same several times: KIND[,KIND...].blend beside the scene
     blender -b SCENE.blend -P variants.py -- render SAMPLES FIRST LAST OUT.####.exr
         the frames as Blender itself renders them; with several eyes OUT.####_L.exr and OUT.####_R.exr; `render_depth`
         writes depth, too, which takes a multilayer file since Blender 4.0
 """
 
 import math
+import os
 import sys
 
 import bpy
@@ -312,9 +313,9 @@ def make_eevee(scene, camera):
     scene.render.engine = "BLENDER_EEVEE_NEXT" if (4, 2) <= bpy.app.version < (5, 0) else "BLENDER_EEVEE"
 
 
-def make_still(scene, frame):
-    """Puts a camera without animation in place of the scene's, with its lens."""
-    scene.frame_set(frame)
+def make_still(scene, camera):
+    """Puts a camera without animation in place of the scene's, with the lens that it has at frame 4."""
+    scene.frame_set(4)
     seen = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get())
     made = bpy.data.objects.new("still", bpy.data.cameras.new("still"))
     scene.collection.objects.link(made)
@@ -346,16 +347,23 @@ def render(scene, depth, samples, first, last, path):
         bpy.ops.render.render(write_still=True)
 
 
+def save(kinds, path):
+    scene = bpy.context.scene
+    for kind in kinds.split(","):
+        globals()["make_" + kind](scene, scene.camera)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+
+
 def main(action, *rest):
     scene = bpy.context.scene
     if action in ("render", "render_depth"):
         return render(scene, action == "render_depth", *[int(number) for number in rest[:3]], rest[3])
-    if action == "still":
-        make_still(scene, int(rest[0]))
-    else:
-        for kind in action.split(","):
-            globals()["make_" + kind](scene, scene.camera)
-    bpy.ops.wm.save_as_mainfile(filepath=rest[-1])
+    if action != "each":
+        return save(action, rest[0])
+    base = bpy.data.filepath
+    for kinds in rest:
+        bpy.ops.wm.open_mainfile(filepath=base)
+        save(kinds, os.path.join(os.path.dirname(base), kinds + ".blend"))
 
 
 main(*sys.argv[sys.argv.index("--") + 1:])

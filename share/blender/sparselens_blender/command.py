@@ -10,7 +10,8 @@ import bpy
 
 from . import panel
 from .options import read_options
-from .renders import Count, Manner, folder_of, render_now, views_steps
+from .renders import (
+    AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
 from .views import (
@@ -47,8 +48,10 @@ def render_views(options, scene, eyes, manner, say):
             return views_of_lens(options.views, options.lens_views)
         with open(numbered(options.plan, frame)) as file:
             plan = json.load(file)
-        check_plan(plan, shot_of(scene, eyes[0], options.supersample).size,
-                   options.supersample)
+        if options.supersample == AUTO:
+            manner.supersample = plan.get("center_supersample", 1)
+        check_plan(plan, shot_of(scene, eyes[0], manner.supersample).size,
+                   manner.supersample)
         return views_of_plan(plan)
 
     folder, count = folder_of(options.output), Count()

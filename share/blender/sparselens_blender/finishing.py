@@ -9,7 +9,7 @@ from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
 from .one_view import view_steps
 from .renders import folder_of, used_layers
-from .shots import eyes_of, shot_of
+from .shots import eyes_of
 from .taking import chosen_folder, image_of, show
 
 
@@ -30,9 +30,9 @@ class Finishing:
         views = folder_of(settings.folder)
         self.eyes = []
         for eye in eyes_of(scene):
-            shot = shot_of(scene, eye, manner.supersample)
-            self.eyes.append((eye, shot, pictures.files_to_take(
-                scene, views, eye, settings.views, shot)))
+            files, shot = pictures.files_to_take(
+                scene, views, eye, settings.views, manner.supersample)
+            self.eyes.append((eye, shot, files))
 
     def steps(self):
         """Yields the renders, in words, and the chains of tools."""
@@ -48,7 +48,6 @@ class Finishing:
                 pictures.finish_command(self.tools, files, made)])
             yield chain
             self.warnings += chain.warnings
-            image = image_of(
-                "sparselens, " + self.scene.name + eye.file_suffix, made)
+            image = image_of(self.scene.name, eye, made)
             show(image)
             self.images.append(image.name)

@@ -94,21 +94,31 @@ def render_settings(scene, size, multilayer=False, codec="ZIP", noisy=False):
         yield
 
 
+def samples_of(scene):
+    """Samples per pixel of the scene's picture."""
+    return (scene.cycles.samples if scene.render.engine == "CYCLES"
+            else scene.eevee.taa_render_samples)
+
+
 @contextmanager
 def finer(scene, supersample):
-    """Divides the samples per pixel for a while by the number of
-    sub-pixels."""
-    subpixels = supersample * supersample
-    cycles = scene.render.engine == "CYCLES"
-    samples = (scene.cycles.samples if cycles
-               else scene.eevee.taa_render_samples)
+    """Divides the samples per pixel for a while by the number of sub-pixels.
+    A sub-pixel may have more noise by their root, so that adaptive sampling
+    takes as many rays for the picture as before."""
+    subpixels, samples = supersample * supersample, samples_of(scene)
     if samples < subpixels:
         raise ValueError(
             "--supersample %d: %d samples a pixel are too few for %d pixels "
             "in its place" % (supersample, samples, subpixels))
-    fewer = round(samples / subpixels)
-    with (changed(scene.cycles, samples=fewer) if cycles
-          else changed(scene.eevee, taa_render_samples=fewer)):
+    fewer, cycles = round(samples / subpixels), scene.cycles
+    if scene.render.engine == "CYCLES":
+        change = changed(
+            cycles, samples=fewer,
+            adaptive_threshold=min(1, cycles.adaptive_threshold * supersample),
+            adaptive_min_samples=cycles.adaptive_min_samples // subpixels)
+    else:
+        change = changed(scene.eevee, taa_render_samples=fewer)
+    with change:
         yield
 
 

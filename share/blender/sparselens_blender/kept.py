@@ -6,8 +6,11 @@ import struct
 from dataclasses import replace
 
 from .exr import exr_box, exr_int, exr_text, read_header
+from .for_a_while import samples_of
 from .layers import folder_named
 from .shots import camera_attributes, view_placement
+
+NAMES = {"Camera"}  # may change
 
 # The lens may change afterwards, but it must not become wider than the views.
 OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
@@ -21,10 +24,7 @@ def denoises(scene):
 def manner_attributes(scene, layer, multilayer, more=""):
     """The frame, and in words how its views are rendered; `more`: further
     words."""
-    cycles = scene.render.engine == "CYCLES"
-    samples = (scene.cycles.samples if cycles
-               else scene.eevee.taa_render_samples)
-    words = [scene.render.engine, "%d samples" % samples]
+    words = [scene.render.engine, "%d samples" % samples_of(scene)]
     if denoises(scene):
         words.append("denoised, noise kept")
     words += [layer] if layer else []
@@ -90,6 +90,11 @@ def overscan_of_file(path):
     return -struct.unpack("<4i", header["dataWindow"][1])[0]
 
 
+def supersample_of(header):
+    kind, value = header.get("ldi.supersample", ("", b""))
+    return struct.unpack("<i", value)[0] if kind == "int" else 1
+
+
 def is_of_camera(header, shot, u=(0, 0), wider=False):
     """Whether a view was seen from point u of this camera's lens, or of one at
     least as wide; with `wider` this lens may also be the wider one."""
@@ -102,7 +107,7 @@ def is_of_camera(header, shot, u=(0, 0), wider=False):
     wanted["displayWindow"] = exr_box(0, 0, *shot.size)
     return (fstop <= shot.fstop or wider) and all(
         header.get(name) == value for name, value in wanted.items()
-        if name not in OF_THE_LENS)
+        if name not in OF_THE_LENS | NAMES)
 
 
 def is_kept(path, shot, u, others):
@@ -127,4 +132,5 @@ def is_same_render(path, shot, others):
     header = header_of(path)
     wanted = camera_attributes(shot, shot.placement) | others
     return header is not None and all(
-        header.get(name) == value for name, value in wanted.items())
+        header.get(name) == value for name, value in wanted.items()
+        if name not in NAMES)

@@ -72,10 +72,30 @@ def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
             os.remove(partial)
 
 
+def probe_steps(scene, path, shot, size, layer, words):
+    """Renders a picture of one sample per pixel, of this size, from the centre
+    of the lens, and returns its EXR."""
+    with ExitStack() as stack:
+        stack.enter_context(only_layer(scene, layer))
+        stack.enter_context(render_settings(scene, size, codec="NONE"))
+        stack.enter_context(changed(scene.cycles, samples=1))
+        stack.enter_context(changed(scene.eevee, taa_render_samples=1))
+        camera = stack.enter_context(still_camera(scene))
+        stack.enter_context(changed(scene.render, filepath=path))
+        aim(camera, shot, shot.placement, 0)
+        try:
+            yield words
+            with open(path, "rb") as file:
+                return file.read()
+        finally:
+            if os.path.exists(path):
+                os.remove(path)
+
+
 def overscan_steps(scene, folder, shot, layers):
     """The pixels of overscan that the blur of a frame needs: the largest
-    circle of confusion at its border, in any of the layers. It is read from the depth
-    of small pictures with one sample per pixel."""
+    circle of confusion at its border, in any of the layers. It is read from
+    the depth of small pictures with one sample per pixel."""
     shrink = min(1, LARGEST_PROBE / max(shot.size))
     size = [max(1, round(side * shrink)) for side in shot.size]
     path = os.path.join(folder, ".overscan.%04d.partial.exr"
@@ -87,21 +107,8 @@ def overscan_steps(scene, folder, shot, layers):
 
     found = 0
     for layer in layers:
-        with ExitStack() as stack:
-            stack.enter_context(only_layer(scene, layer))
-            stack.enter_context(render_settings(scene, size, codec="NONE"))
-            stack.enter_context(changed(scene.cycles, samples=1))
-            stack.enter_context(changed(scene.eevee, taa_render_samples=1))
-            camera = stack.enter_context(still_camera(scene))
-            stack.enter_context(changed(scene.render, filepath=path))
-            aim(camera, shot, shot.placement, 0)
-            try:
-                yield "overscan"
-                with open(path, "rb") as file:
-                    rows = depth_rows(file.read())
-            finally:
-                if os.path.exists(path):
-                    os.remove(path)
+        rows = depth_rows((yield from probe_steps(scene, path, shot, size,
+                                                  layer, "overscan")))
         columns = [row[0] for row in rows] + [row[-1] for row in rows]
         found = max(found, largest(columns, 1, shot.size[0]), largest(
             rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))

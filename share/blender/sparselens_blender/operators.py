@@ -14,6 +14,7 @@ from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of
+from .sub_pixels import supersample_in
 from .taking import (
     ERRORS, Taking, chosen_folder, editors, lens_state, start_following,
     stop_following)
@@ -26,7 +27,7 @@ def frames_of(scene):
 
 def manner_of(settings):
     return Manner(AUTO if settings.overscan_auto else settings.overscan,
-                  settings.multilayer, supersample=settings.supersample,
+                  settings.multilayer, supersample=supersample_in(settings),
                   slices=settings.slices, layers=names_of(settings.layers))
 
 

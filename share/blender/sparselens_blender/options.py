@@ -30,7 +30,7 @@ def natural_number(text):
     return int(text)
 
 
-def overscan_option(text):
+def number_or_auto(text):
     return AUTO if text == AUTO else natural_number(text)
 
 
@@ -52,11 +52,12 @@ def add_options(add, exclusive):
              "those of the scene)")
     add("--samples", type=natural_number, metavar="N",
         help="samples a pixel of the picture (default: the scene's)")
-    add("--supersample", type=natural_number, default=1, metavar="N",
+    add("--supersample", type=number_or_auto, default=AUTO, metavar="N",
         help="render N times the width and height with 1/N^2 of the samples "
              "a pixel; dof-gather makes the picture of the scene's size of "
-             "it (default: 1)")
-    add("--overscan", type=overscan_option, default=AUTO, metavar="PX",
+             "it; auto: 2 at frames where ldi-plan advises it, else 1 "
+             "(default: auto)")
+    add("--overscan", type=number_or_auto, default=AUTO, metavar="PX",
         help="pixels of the picture to render beyond each side; auto: as "
              "many as the blur at the border of each frame needs (default: "
              "auto)")
@@ -110,9 +111,11 @@ def add_picture_options(add):
 def check_options(parser, options):
     if options.samples == 0:
         parser.error("argument --samples: 0 samples make no picture")
-    if not 1 <= options.supersample <= 16:
-        parser.error("argument --supersample: must be from 1 to 16")
-    if options.supersample > 1 and options.lens_views:
+    if options.lens_views and options.supersample == AUTO:
+        options.supersample = 1
+    if options.supersample != AUTO and not 1 <= options.supersample <= 16:
+        parser.error("argument --supersample: must be from 1 to 16, or auto")
+    if options.lens_views and options.supersample > 1:
         parser.error("argument --lens-views: their average is the picture: "
                      "render them without --supersample")
     if options.lens_views and (options.slices or options.layers):

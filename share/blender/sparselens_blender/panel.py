@@ -34,6 +34,11 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
     overscan: bpy.props.IntProperty(
         name="Overscan", description="Pixels rendered beyond each side",
         default=0, min=0, max=4096, subtype="PIXEL")
+    supersample_auto: bpy.props.BoolProperty(
+        name="Auto Supersample", default=True,
+        description="Render the views of a frame twice as wide and high, with "
+                    "a quarter of the samples, where ldi-plan advises it: if "
+                    "many pixels are at edges of depth")
     supersample: bpy.props.IntProperty(
         name="Supersample", description="Pixels rendered, across and down, "
         "for each of the picture, with as many fewer samples",
@@ -80,7 +85,8 @@ def gigabytes(scene):
     """Gigabytes of all frames' views and LDIs without compression: 12 bytes
     per pixel of a view, and an LDI is as large as three views."""
     settings, size = scene.sparselens, picture_size(scene.render)
-    pixels = size[0] * size[1] * settings.supersample ** 2
+    finest = 2 if settings.supersample_auto else settings.supersample
+    pixels = size[0] * size[1] * finest ** 2
     return 12e-9 * pixels * (settings.views + 4) * len(frames_of(scene))
 
 
@@ -136,8 +142,10 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         layout.prop(settings, "overscan_auto")
         if not settings.overscan_auto:
             layout.prop(settings, "overscan")
-        for name in ("supersample", "slices", "layers", "multilayer",
-                     "animation"):
+        layout.prop(settings, "supersample_auto")
+        if not settings.supersample_auto:
+            layout.prop(settings, "supersample")
+        for name in "slices", "layers", "multilayer", "animation":
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
         layout.prop(settings, "live")

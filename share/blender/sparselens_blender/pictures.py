@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 from . import tools
 from .exr import channel_list
-from .kept import header_of, is_of_camera, parts_of_file
+from .kept import header_of, is_of_camera, parts_of_file, supersample_of
+from .shots import shot_of
+from .sub_pixels import AUTO
 
 
 @dataclass
@@ -37,10 +39,11 @@ def frame_of(header):
     return struct.unpack("<i", value)[0] if kind == "int" else None
 
 
-def files_to_take(scene, folder, eye, rim, shot):
+def files_to_take(scene, folder, eye, rim, supersample):
     """The view files of the current frame: those with its number, else those
-    without a number. Raises ValueError if they are missing, or belong to
-    another frame or camera."""
+    without a number; and the camera, with the sub-pixels that the files have,
+    if `supersample` is AUTO. Raises ValueError if files are missing, or belong
+    to another frame or camera."""
     ask = ": press Render Views"
     found = None
     for ending in ".%04d.exr" % scene.frame_current, ".exr":
@@ -59,14 +62,16 @@ def files_to_take(scene, folder, eye, rim, shot):
         if frame not in (None, scene.frame_current):
             raise ValueError("%s shows frame %d, not %d%s" % (
                 path, frame, scene.frame_current, ask))
-    check_camera(found.views[0], shot, ask)
-    return found
+    header = header_of(found.views[0])
+    shot = shot_of(scene, eye, supersample_of(header)
+                   if supersample == AUTO else supersample)
+    check_camera(header, found.views[0], shot, ask)
+    return found, shot
 
 
-def check_camera(center, shot, ask):
+def check_camera(header, center, shot, ask):
     """Raises ValueError if the camera has moved since. The lens may differ; if
     it is opened wider than in the views, the tools warn."""
-    header = header_of(center)
     if not is_of_camera(header, shot, wider=True):
         raise ValueError("camera '%s' has been moved or changed, or the "
                          "picture's size, since %s was rendered%s"
@@ -152,10 +157,12 @@ def finish_command(folder, files, out):
             files.path("rays_1"), files.path("rays_2"), "-o", out]
 
 
-DRAFT_WIDTH = 640  # pixels; a wider picture is first shown smaller
+DRAFT_WIDTH = 640  # pixels to gather; a wider picture is first shown smaller
 
 
-def draft_options(width):
+def draft_options(width, supersample):
+    """A picture that is made smaller is gathered without sub-pixels."""
+    least = 1 if width * supersample <= DRAFT_WIDTH else 2
     return ["--quality", "draft",
-            "--proxy", str(max(1, math.ceil(width / DRAFT_WIDTH)))]
+            "--proxy", str(max(least, math.ceil(width / DRAFT_WIDTH)))]
 

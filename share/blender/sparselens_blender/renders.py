@@ -9,7 +9,7 @@ import math
 import os
 import sys
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 
@@ -23,10 +23,9 @@ from .kept import (
     part_attributes, windows)
 from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
-from .shots import camera_attributes, shot_of
+from .shots import camera_attributes, eyes_of, shot_of
+from .sub_pixels import AUTO, supersample_steps
 from .volumes import check_slices, without_volumes
-
-AUTO = "auto"  # overscan: as much as the blur needs
 
 
 @dataclass
@@ -36,7 +35,7 @@ class Manner:
     overscan: object = AUTO  # pixels of the scene's picture, or AUTO
     multilayer: bool = False
     layer: str = None        # the only view layer to render; None: all
-    supersample: int = 1     # pixels per picture pixel, across and down
+    supersample: object = AUTO  # pixels per picture pixel, across and down
     finish: int = 0          # samples per pixel, both lens renders together
     slices: int = 0          # of volumes; 0: the views show the volumes
     layers: tuple = ()       # names of see-through things
@@ -180,6 +179,18 @@ def frame_ending(frame, several):
     return ".%04d.exr" % frame if several else ".exr"
 
 
+def manner_steps(scene, folder, ending, manner):
+    """The manner of a frame, with the number of its sub-pixels."""
+    if manner.supersample != AUTO:
+        return manner
+    eye = eyes_of(scene)[0]
+    center = os.path.join(folder, "center" + eye.file_suffix + ending)
+    with only_layer(scene, manner.layer):
+        found = yield from supersample_steps(scene, center, eye, manner.keep,
+                                             used_layers(scene))
+    return replace(manner, supersample=found)
+
+
 def views_steps(scene, frames, folder, views_at, eyes, manner, count,
                 several=False, say=warn):
     """The views of a list of frames; views_at(frame) returns those of one
@@ -199,11 +210,11 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     try:
         for frame in frames:
             scene.frame_set(frame)
-            views = views_at(frame)
+            views, ending = views_at(frame), frame_ending(frame, several)
+            at_frame = yield from manner_steps(scene, folder, ending, manner)
             for eye in eyes:
-                yield from eye_steps(scene, folder,
-                                     frame_ending(frame, several), views, eye,
-                                     manner, count)
+                yield from eye_steps(scene, folder, ending, views, eye,
+                                     at_frame, count)
     finally:
         if scene.frame_current != before:
             scene.frame_set(before)

@@ -106,7 +106,7 @@ class Pictures:
 
     def take(self, frame, eye, files):
         """Makes the picture of the views, and of the rays if there are any."""
-        shot = shot_of(self.scene, eye, self.manner.supersample)
+        shot = shot_of(self.scene, eye)
         stem, ending = os.path.splitext(numbered(self.name, frame))
         out = stem + eye.file_suffix + ending
         made = out if self.kind == "OPEN_EXR" else files.path("picture")

@@ -37,11 +37,14 @@ class Shot:
     def lens_radius(self):
         return self.focal_length / 1000 / (2 * self.fstop)
 
+    @property
+    def focal_pixels(self):
+        return self.focal_length * self.size[0] / self.sensor_width
+
     def blur_radius(self, depth):
         """The radius of the circle of confusion at this depth, in pixels,
         horizontally."""
-        focal_length = self.focal_length * self.size[0] / self.sensor_width
-        return (self.lens_radius * focal_length / self.focus_distance
+        return (self.lens_radius * self.focal_pixels / self.focus_distance
                 * abs(depth - self.focus_distance) / depth)
 
 

@@ -9,6 +9,7 @@ from .chain import Chain, ToolError
 from .looks import looks_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
+from .sub_pixels import supersample_in
 
 ERRORS = ValueError, OSError, RuntimeError, ToolError
 
@@ -27,14 +28,23 @@ def lens_state(scene):
         for word in pictures.lens_options(shot_of(scene, eye), looks)])
 
 
-def image_of(key, path):
-    """Blender's image with this key, reloaded from the file."""
-    image = next((image for image in bpy.data.images
-                  if image.get("sparselens") == key), None)
+def image_of(scene, eye, path):
+    """Blender's image of the picture of an eye of the scene with this name,
+    reloaded from the file. An image of a scene that is not there is of this
+    one, by its former name."""
+    own = [image for image in bpy.data.images if image.get("sparselens")
+           and image["sparselens_eye"] == eye.file_suffix]
+    image = next((image for image in own
+                  if image["sparselens"] == scene), None)
+    if image is None:
+        image = next((image for image in own
+                      if image["sparselens"] not in bpy.data.scenes), None)
     if image is None:
         image = bpy.data.images.load(path)
-        image.name, image["sparselens"] = key, key
         image.use_view_as_render = True
+    image["sparselens"] = scene
+    image["sparselens_eye"] = eye.file_suffix
+    image.name = "sparselens, " + scene + eye.file_suffix
     image.filepath = path
     image.reload()
     return image
@@ -65,27 +75,25 @@ class Taking:
         settings = scene.sparselens
         folder, _ = tools.find(chosen_folder())
         views = folder_of(settings.folder)
-        self.state = lens_state(scene)
+        self.scene, self.state = scene.name, lens_state(scene)
         self.warnings = []
         self.images = []
         warps, drafts, finals = [], [], []
         for eye in eyes_of(scene):
-            shot = shot_of(scene, eye, settings.supersample)
-            files = pictures.files_to_take(scene, views, eye, settings.views,
-                                           shot)
+            files, shot = pictures.files_to_take(
+                scene, views, eye, settings.views, supersample_in(settings))
             layer = settings.multilayer and used_layers(scene)[0]
             ldi, made = files.path("ldi"), files.path("picture")
             sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
             options = pictures.lens_options(shot, looks_of(settings))
-            key = "sparselens, " + scene.name + eye.file_suffix
-            size = [side // settings.supersample for side in shot.size]
+            size = [side // shot.supersample for side in shot.size]
             warps += [(command, None) for command in pictures.warp_commands(
                 folder, files, layer)]
             drafts.append((pictures.gather_command(
-                folder, ldi, sketch, options + pictures.draft_options(size[0])
-            ), (key, sketch, size)))
+                folder, ldi, sketch, options + pictures.draft_options(
+                    size[0], shot.supersample)), (eye, sketch, size)))
             finals.append((pictures.gather_command(
-                folder, ldi, made, options), (key, made, None)))
+                folder, ldi, made, options), (eye, made, None)))
         self.stages = ([("warping", warps)]
                        + ([("a draft", drafts)] if draft else [])
                        + [("the picture", finals)])
@@ -102,8 +110,8 @@ class Taking:
             if not self.chain.poll():
                 return False
             self.warnings += self.chain.warnings
-            for key, path, size in self.to_show:
-                self.show(key, path, size)
+            for eye, path, size in self.to_show:
+                self.show(eye, path, size)
         if not self.stages:
             return True
         self.words, commands = self.stages.pop(0)
@@ -111,13 +119,13 @@ class Taking:
         self.to_show = [shown for _, shown in commands if shown]
         return False
 
-    def show(self, key, path, size):
-        image = image_of(key, path)
+    def show(self, eye, path, size):
+        image = image_of(self.scene, eye, path)
         if size and tuple(image.size) != tuple(size):
             image.scale(*size)
         show(image)
         self.images = [image.name for image in bpy.data.images
-                       if image.get("sparselens")]
+                       if image.get("sparselens") == self.scene]
 
     def wait(self):
         while not self.tick():

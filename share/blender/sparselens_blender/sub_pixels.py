@@ -1,0 +1,71 @@
+"""Whether a frame's views are worth twice the size of its picture, as ldi-plan
+advises: where many pixels are at edges of depth."""
+
+import os
+from operator import or_
+
+from .exr import depth_rows
+from .for_a_while import samples_of
+from .kept import header_of, is_of_camera, supersample_of
+from .one_view import probe_steps
+from .shots import shot_of
+
+AUTO = "auto"  # supersample and overscan: as the frame needs it
+MANY_EDGES = 0.05  # share of the pixels; many_edges of src/plan/tuning.h
+TORN = 1  # pixels of perceptive depth; torn_px of src/kernels/surface.h
+
+
+def supersample_in(settings):
+    """What the panel says: a number, or AUTO."""
+    return AUTO if settings.supersample_auto else settings.supersample
+
+
+def share_at_edges(rows, shot):
+    """The share of the pixels beside a jump of depth, as share_at_edges() of
+    src/plan/disocclusion.h has it."""
+    scale = shot.lens_radius * shot.focal_pixels
+    count, above, marked_above = 0, None, []
+    for row in rows:
+        depths = [scale / z if z > 0 else 0 for z in row]  # perceptive
+        jumps = [abs(a - b) > TORN for a, b in zip(depths, depths[1:])]
+        marked = list(map(or_, [False] + jumps, jumps + [False]))
+        if above:
+            jumps = [abs(a - b) > TORN for a, b in zip(above, depths)]
+            count += sum(map(or_, marked_above, jumps))
+            marked = list(map(or_, marked, jumps))
+        above, marked_above = depths, marked
+    return (count + sum(marked_above)) / (len(rows) * len(rows[0]))
+
+
+def kept_supersample(scene, eye, center):
+    """The supersample of a centre view of an earlier run that may stay."""
+    header = header_of(center)
+    if header is None:
+        return None
+    number = supersample_of(header)
+    fits = (samples_of(scene) >= number * number
+            and is_of_camera(header, shot_of(scene, eye, number), wider=True))
+    return number if fits else None
+
+
+def supersample_steps(scene, center, eye, keep, layers):
+    """The supersample of the views of this frame, 1 or 2; with `keep`, the one
+    of an earlier run's centre view. A picture of one sample per pixel tells
+    it, of the view layer with the most edges. The first eye of a scene decides
+    for all, so that they are alike."""
+    if samples_of(scene) < 4:
+        return 1
+    kept = keep and kept_supersample(scene, eye, center)
+    if kept:
+        return kept
+    shot, share = shot_of(scene, eye), 0
+    for layer in layers:
+        data = yield from probe_steps(
+            scene, os.path.join(os.path.dirname(center), ".edges.%04d.partial"
+                                ".exr" % scene.frame_current),
+            shot, shot.size, layer, "edges")
+        share = max(share, share_at_edges(depth_rows(data), shot))
+    number = 2 if share >= MANY_EDGES else 1
+    print("sparselens: frame %d: %.1f %% of the pixels are at edges of depth: "
+          "supersample %d" % (scene.frame_current, 100 * share, number))
+    return number
