@@ -50,7 +50,7 @@ mount_at() { # FOLDER ARGUMENT...
 }
 unmount() {
     local i
-    for ((i = ${#mounted[@]} - 1; i >= 0; --i)); do umount "${mounted[i]}"; done
+    for ((i = ${#mounted[@]} - 1; i >= 0; --i)); do umount -R "${mounted[i]}"; done
 }
 within() {
     env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 ${CCACHE_DIR:+CCACHE_DIR=/var/cache/ccache} \
@@ -61,7 +61,7 @@ within() {
 trap unmount EXIT
 mount_at /proc -t proc proc
 mount_at /sys -t sysfs sysfs
-[ ! -d /sys/fs/cgroup ] || mount_at /sys/fs/cgroup --bind --make-private /sys/fs/cgroup
+[ ! -d /sys/fs/cgroup ] || mount_at /sys/fs/cgroup --rbind --make-rprivate /sys/fs/cgroup # with its controllers, for Slurm 22
 mount_at /dev --bind --make-private /dev
 mount_at /dev/pts --bind --make-private /dev/pts
 mount_at /dev/shm -t tmpfs tmpfs
