@@ -14,7 +14,7 @@ using Weights = std::vector<double>;
 
 TEST(ShutterCurve, OfABoxCountsAllMomentsAlike) {
     for (const int moments : {1, 3, 7, 16})
-        EXPECT_EQ(moment_weights(box_shutter(), moments), Weights(moments, 1.0));
+        EXPECT_EQ(moment_weights(box_shutter(), moments), Weights(std::size_t(moments), 1.0));
 }
 
 TEST(ShutterCurve, OfATriangleIsItsMeanInEachMoment) {
