@@ -361,9 +361,13 @@ def main(action, *rest):
     if action != "each":
         return save(action, rest[0])
     base = bpy.data.filepath
+    folder = os.path.dirname(base)
     for kinds in rest:
-        bpy.ops.wm.open_mainfile(filepath=base)
-        save(kinds, os.path.join(os.path.dirname(base), kinds + ".blend"))
+        before, _, last = kinds.rpartition(",")
+        saved = os.path.join(folder, before + ".blend")
+        begun = before and os.path.exists(saved)  # a still camera shows what Blender evaluates after loading
+        bpy.ops.wm.open_mainfile(filepath=saved if begun else base)
+        save(last if begun else kinds, os.path.join(folder, kinds + ".blend"))
 
 
 main(*sys.argv[sys.argv.index("--") + 1:])
