@@ -163,7 +163,7 @@ WRONG = [
     (ValueError, "weight: .*one dimension", lambda: two_pixels(weight=floats(3, 1))),
     (ValueError, "z_back: sample 1", lambda: two_pixels(z_back=numpy.array([2, 0.5, 4], numpy.float32))),
     (ValueError, "size: ", lambda: two_pixels(size=(0, 1))),
-    (TypeError, "ldi: must be an Ldi, not ndarray", lambda: sparselens.gather(Z)),
+    (TypeError, "ldi: must be an Ldi, or a sequence of the moments of a shutter, not ndarray", lambda: sparselens.gather(Z)),
     (TypeError, r"gather\(\) has no keyword argument 'fstp'; did you mean fstop\?$", lambda: sparselens.gather(two_pixels(), fstp=2)),
     (TypeError, r"gather\(\) has no keyword argument 'nonsense'$", lambda: sparselens.gather(two_pixels(), nonsense=2)),
     (ValueError, r"^focus_pixel: 7,0 lies outside of ldi, whose pixels go from 0,0 to 1,0$", lambda: sparselens.gather(two_pixels(**LENS), focus_pixel=(7, 0))),

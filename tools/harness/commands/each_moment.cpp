@@ -15,12 +15,11 @@ namespace {
 
 constexpr const char *placeholder = "%s";
 
+bool has_placeholder(const std::string &word) { return word.find(placeholder) != std::string::npos; }
+
 // The first input with %s at the first frame, or nothing.
 std::optional<std::string> input_of_moments(const std::vector<std::string> &words) {
-    const auto has_moments = [](const std::string &word) {
-        return word.find(placeholder) != std::string::npos;
-    };
-    if (std::ranges::none_of(words, has_moments)) return {};
+    if (std::ranges::none_of(words, has_placeholder)) return {};
     const std::vector<std::string> first = FrameCommands(words).words(0);
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (is_output_with(placeholder, words, i)) continue;
@@ -41,10 +40,7 @@ bool asks_for_each_moment(const std::vector<std::string> &words) {
 
 std::vector<std::vector<std::string>> words_for_moments(const std::vector<std::string> &words) {
     const std::optional<std::string> input = input_of_moments(words);
-    if (!input)
-        throw UsageError(
-            "%s in the name of the output stands for the number of a moment: put it into the names "
-            "of the inputs, too");
+    if (!input) return {words};
     std::vector<std::vector<std::string>> commands;
     for (const std::string &number : moments_on_disk(*input)) {
         commands.push_back(words);

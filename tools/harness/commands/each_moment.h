@@ -10,8 +10,8 @@ namespace sparselens {
 // Whether a command asks for one output for each moment.
 bool asks_for_each_moment(const std::vector<std::string> &words);
 
-// The words for each moment. The moments are those of the first input with %s, at the first frame. Throws UsageError if
-// no input has %s, and as moments_on_disk() does.
+// The words for each moment. The moments are those of the first input with %s, at the first frame. If no input has %s,
+// or the inputs with %s are files of that very name, %s stands for itself. Throws as moments_on_disk() does.
 std::vector<std::vector<std::string>> words_for_moments(const std::vector<std::string> &words);
 
 // Throws UsageError if an input has %s, for tools that make one output of one moment.
