@@ -12,7 +12,7 @@ says() { exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from s
 with served(*sys.argv[2:]) as server: print(server.picture(settings={})[0])' "$helpers" "$bin/dof-view" ldi.exr "$@"; }
 # agree OPTIONS...: its picture equals, byte by byte, dof-gather's with the same options, and so does that of the copied
 # command.
-agree() { exits 0 python3 "$helpers/agree.py" "$bin" ldi.exr "$@"; }
+agree() { exits 0 python3 "$helpers/agree.py" "$bin" "${of:-ldi.exr}" "$@"; }
 
 exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr
 
@@ -29,6 +29,10 @@ agree --method selective --layers 3
 agree --channels R,G,B,A --device cpu
 agree --blades 5 --blade-curvature 0.3 --blade-rotation 20 --squeeze 1.5 --spherical 0.5 --cat-eye 1 --cat-eye-darkening
 agree --axial-chromatic 1 --axial-chromatic-type blue-yellow --field-curvature 0.2 --breathing 1 --tilt -10,5
+# Two moments of a shutter, the second with fewer samples.
+cp ldi.exr moment_0.exr
+exits 0 "$bin/ldi-cluster" ldi.exr -o moment_1.exr --tolerance 2
+of=moment_%s.exr agree --shutter-curve triangle
 agree --astigmatism 0.3
 agree --lens "$source_dir/share/lenses/hexagon.json" --highlight-gain 3 --highlight-threshold 0.5 --highlight-knee 0.5
 agree --aperture "$source_dir/share/lenses/mirror.exr"
