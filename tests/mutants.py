@@ -6,8 +6,8 @@
 Compares with COMMIT (HEAD~20), and uses changed lines of src/**/*.cpp and tools/**/*.cpp, or all lines of each FILE.
 First come the faults that tests/mutations.txt has for these files, then operators, comparisons and constants. Ends
 after N seconds (600) or N faults (30). The build is not modified: a changed file is compiled and linked in a folder
-beside bin/. Exits with 1 if a fault of the list is not caught, or if fewer than half of the others are, since some
-faults change nothing visible, or if the test that caught a fault fails without it too.
+beside bin/. Exits with 1 if a fault of the list is not caught, or if fewer than half of at least 10 others are, since
+some faults change nothing visible, or if the test that caught a fault fails without it too.
 """
 import argparse
 import hashlib
@@ -23,6 +23,9 @@ source = pathlib.Path(__file__).resolve().parent.parent
 SWAPS = {" < ": " >= ", " > ": " <= ", " <= ": " > ", " >= ": " < ", " == ": " != ", " != ": " == ", " + ": " - ",
          " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ", " && ": " || ", " || ": " && ",
          "std::min(": "std::max(", "std::max(": "std::min(", "true": "false", "false": "true"}
+
+
+ENOUGH = 10  # fewer faults tell nothing about the tests; how many are tried depends on the machine
 
 
 def said(*command, **options):
@@ -156,7 +159,7 @@ def main():
             else:
                 tried, caught = tried + 1, caught + bool(by)
     print(f"mutants: {caught} of {tried} caught; {len(lines)} files changed")
-    return code or 2 * caught < tried
+    return code or (tried >= ENOUGH and 2 * caught < tried)
 
 
 if __name__ == "__main__":
