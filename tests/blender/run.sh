@@ -14,6 +14,7 @@ bash "$here/script.sh" "$bin"
 bash "$here/pictures.sh" "$bin"
 bash "$here/shots.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/apart.sh" "$bin"
+bash "$here/shutter.sh" "$bin"
 bash "$here/window.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/extension.sh" "$bin"
 bash "$here/mistakes.sh" "$bin"

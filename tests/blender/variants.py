@@ -95,6 +95,20 @@ def make_lens(scene, camera):
     key(target, "location", (0.5, 3, 0.8), (0.5, 5, 0.8))
 
 
+def straight(thing):
+    """Makes the motion between the keys even."""
+    for curve in thing.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def make_pan(scene, camera):
+    """The camera turns, with the motion blur of half a frame: 13 pixels of 320."""
+    key(camera, "rotation_euler", (math.pi / 2, 0, 0.15), (math.pi / 2, 0, -0.15))
+    straight(camera)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5
+
+
 def make_film(scene, camera):
     """Without the wall: behind the floor's edge there is nothing."""
     bpy.data.objects.remove(scene.objects["Plane.001"])

@@ -41,7 +41,7 @@ def denoises_in_vain(scene):
             and not getattr(_cycles, "with_openimagedenoise", True))
 
 
-def check_scene(scene):
+def check_scene(scene, moments=1):
     """Raises ValueError, which says what to change, if the scene cannot be
     rendered. Returns warnings about it."""
     layers = [layer for layer in scene.view_layers if layer.use]
@@ -56,9 +56,10 @@ def check_scene(scene):
                          "OpenImageDenoise: switch it off under Sampling in "
                          "the render properties")
     warnings = []
-    if scene.render.use_motion_blur:
+    if scene.render.use_motion_blur and moments == 1:
         warnings.append("motion blur is on: objects blur, but the camera "
-                        "stands still in each view")
+                        "stands still in each view: --shutter 4 renders four "
+                        "moments in its place")
     if scene.render.use_border:
         warnings.append("the render region is not used, because what is "
                         "outside it blurs into it: to get its pixels alone, "

@@ -14,6 +14,7 @@ from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
+from .shutter import MOST
 from .views import (
     check_plan, counted, numbered, views_of_lens, views_of_plan)
 
@@ -71,7 +72,8 @@ def main(options, say):
     manner = Manner(options.overscan, options.multilayer, options.layer,
                     options.supersample,
                     0 if options.picture else options.finish,
-                    slices=options.slices, layers=options.layers)
+                    slices=options.slices, layers=options.layers,
+                    shutter=options.shutter)
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again

@@ -22,7 +22,7 @@ class Finishing:
         self.scene, self.images, self.warnings = scene, [], []
         self.tools, _ = tools.find(chosen_folder())
         self.looks, layer = looks_of(settings), used_layers(scene)[0]
-        check_halves(scene)
+        check_halves(scene, manner.shutter)
         check_looks(self.looks)
         self.rays = replace(manner, multilayer=False, layer=layer,
                             finish=max(settings.finish, 2))

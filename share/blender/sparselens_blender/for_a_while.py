@@ -1,5 +1,6 @@
 """Changes a scene while its views are rendered, and restores it afterwards."""
 
+import math
 from contextlib import ExitStack, contextmanager
 
 import bpy
@@ -101,21 +102,25 @@ def samples_of(scene):
 
 
 @contextmanager
-def finer(scene, supersample):
-    """Divides the samples per pixel for a while by the number of sub-pixels.
-    A sub-pixel may have more noise by their root, so that adaptive sampling
-    takes as many rays for the picture as before."""
-    subpixels, samples = supersample * supersample, samples_of(scene)
-    if samples < subpixels:
+def finer(scene, supersample, moments=1):
+    """Divides the samples per pixel for a while by the number of sub-pixels,
+    and by that of a shutter's moments. Each part of a pixel may have more
+    noise by the root of their number, so that adaptive sampling takes as many
+    rays for the picture as before."""
+    parts, samples = supersample * supersample * moments, samples_of(scene)
+    if samples < parts:
         raise ValueError(
             "--supersample %d: %d samples a pixel are too few for %d pixels "
-            "in its place" % (supersample, samples, subpixels))
-    fewer, cycles = round(samples / subpixels), scene.cycles
+            "in its place" % (supersample, samples, parts)
+            if moments == 1 else
+            "--shutter %d: %d samples a pixel are too few for %d, one for "
+            "each moment and sub-pixel" % (moments, samples, parts))
+    fewer, cycles = round(samples / parts), scene.cycles
     if scene.render.engine == "CYCLES":
         change = changed(
-            cycles, samples=fewer,
-            adaptive_threshold=min(1, cycles.adaptive_threshold * supersample),
-            adaptive_min_samples=cycles.adaptive_min_samples // subpixels)
+            cycles, samples=fewer, adaptive_threshold=min(
+                1, cycles.adaptive_threshold * math.sqrt(parts)),
+            adaptive_min_samples=cycles.adaptive_min_samples // parts)
     else:
         change = changed(scene.eevee, taa_render_samples=fewer)
     with change:

@@ -52,8 +52,12 @@ def curves_of(action):
             for bag in strip.channelbags for curve in bag.fcurves]
 
 
-def check_halves(scene):
-    """Raises ValueError if both renders would have the same noise."""
+def check_halves(scene, moments=1):
+    """Raises ValueError if both renders would have the same noise, or show no
+    motion where the picture does."""
+    if moments > 1:
+        raise ValueError("finishing: its renders show one moment: set the "
+                         "moments of the shutter to 1")
     if scene.render.engine != "CYCLES":
         raise ValueError("finishing: only Cycles renders depth of field by "
                          "rays: choose it as the render engine")

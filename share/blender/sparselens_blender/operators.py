@@ -28,13 +28,15 @@ def frames_of(scene):
 def manner_of(settings):
     return Manner(AUTO if settings.overscan_auto else settings.overscan,
                   settings.multilayer, supersample=supersample_in(settings),
-                  slices=settings.slices, layers=names_of(settings.layers))
+                  slices=settings.slices, layers=names_of(settings.layers),
+                  shutter=settings.shutter)
 
 
 def views_in(settings):
-    """The number of views of a frame and an eye, with the deep one."""
-    return ((settings.views + 1) * (1 + len(names_of(settings.layers)))
-            + (settings.slices > 0))
+    """The number of views of a frame and an eye, with the deep ones."""
+    return settings.shutter * (
+        (settings.views + 1) * (1 + len(names_of(settings.layers)))
+        + (settings.slices > 0))
 
 
 class Renders(BitByBit):

@@ -6,6 +6,7 @@ import shlex
 
 from .layers import names_of
 from .renders import AUTO
+from .shutter import MOST
 
 
 def frame_numbers(text):
@@ -78,6 +79,11 @@ def add_options(add, exclusive):
         help="render these see-through objects or collections each as a "
              "layer of its own: NAME/center.exr, NAME/view_0.exr, ... The "
              "other views are then without them")
+    add("--shutter", type=natural_number, default=1, metavar="N",
+        help="render N moments while the shutter of the scene's motion blur "
+             "is open, each with 1/N of the samples, for a picture with "
+             "motion blur: center_0.exr, view_0_0.exr, ..., center_1.exr, "
+             "... (default: 1, a still)")
     add("--finish", type=natural_number, default=0, metavar="N",
         help="also render two pictures through the camera's lens, N samples "
              "a pixel in all, which share no noise: rays_1.exr and "
@@ -121,6 +127,12 @@ def check_options(parser, options):
     if options.lens_views and (options.slices or options.layers):
         parser.error("argument --lens-views: their average is the picture: "
                      "render them without --slices and --layers")
+    if not 1 <= options.shutter <= MOST:
+        parser.error("argument --shutter: must be from 1 to %d" % MOST)
+    for name in "plan", "lens_views", "finish":
+        if options.shutter > 1 and getattr(options, name):
+            parser.error("argument --%s: shows one moment: not allowed with "
+                         "argument --shutter" % name.replace("_", "-"))
     if options.finish == 1:
         parser.error("argument --finish: two renders take two samples")
     if options.picture:

@@ -6,7 +6,7 @@ import textwrap
 
 import bpy
 
-from . import looks, taking
+from . import looks, shutter, taking
 from .operators import (
     SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
@@ -43,6 +43,11 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Supersample", description="Pixels rendered, across and down, "
         "for each of the picture, with as many fewer samples",
         default=1, min=1, max=16)
+    shutter: bpy.props.IntProperty(
+        name="Moments of Shutter", description="Render the views of this "
+        "many moments while the shutter of Motion Blur is open, each with as "
+        "many fewer samples, for a picture with motion blur; 1: a still",
+        default=1, min=1, max=shutter.MOST)
     finish: bpy.props.IntProperty(
         name="Rays to Finish", description="Samples a pixel of the two "
         "renders through the lens by which Finish makes the picture exact, "
@@ -86,7 +91,7 @@ def gigabytes(scene):
     per pixel of a view, and an LDI is as large as three views."""
     settings, size = scene.sparselens, picture_size(scene.render)
     finest = 2 if settings.supersample_auto else settings.supersample
-    pixels = size[0] * size[1] * finest ** 2
+    pixels = size[0] * size[1] * finest ** 2 * settings.shutter
     return 12e-9 * pixels * (settings.views + 4) * len(frames_of(scene))
 
 
@@ -145,7 +150,8 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         layout.prop(settings, "supersample_auto")
         if not settings.supersample_auto:
             layout.prop(settings, "supersample")
-        for name in "slices", "layers", "multilayer", "animation":
+        for name in ("shutter", "slices", "layers", "multilayer",
+                     "animation"):
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
         layout.prop(settings, "live")

@@ -9,6 +9,7 @@ from . import tools
 from .exr import channel_list
 from .kept import header_of, is_of_camera, parts_of_file, supersample_of
 from .shots import shot_of
+from .shutter import forget_more, of_moment, shot_of_first
 from .sub_pixels import AUTO
 
 
@@ -20,18 +21,33 @@ class Files:
     suffix: str  # for the eye
     ending: str  # .exr, or the frame's number and .exr
     rim: int     # number of views from the rim of the lens
+    moments: int = 1  # of the shutter, each with its views and its LDI
 
     def path(self, name, part=""):
         return os.path.join(self.folder, part,
                             name + self.suffix + self.ending)
 
-    def views_of(self, part):
-        return [self.path("center", part)] + [
-            self.path("view_%d" % number, part) for number in range(self.rim)]
+    def of_moments(self, name, part=""):
+        """The name as the tools read it: for several moments with %s."""
+        path = self.path(name, part)
+        return of_moment(path) if self.moments > 1 else path
+
+    def each(self, name, part=""):
+        """The file of each moment."""
+        path = self.path(name, part)
+        return ([of_moment(path, number) for number in range(self.moments)]
+                if self.moments > 1 else [path])
 
     @property
-    def views(self):
-        return self.views_of("")
+    def names(self):
+        return ["center"] + ["view_%d" % number for number in range(self.rim)]
+
+    def views_of(self, part):
+        return [self.of_moments(name, part) for name in self.names]
+
+    def each_of(self, part):
+        """The file of each view at each moment."""
+        return [path for name in self.names for path in self.each(name, part)]
 
 
 def frame_of(header):
@@ -39,7 +55,7 @@ def frame_of(header):
     return struct.unpack("<i", value)[0] if kind == "int" else None
 
 
-def files_to_take(scene, folder, eye, rim, supersample):
+def files_to_take(scene, folder, eye, rim, supersample, moments=1):
     """The view files of the current frame: those with its number, else those
     without a number; and the camera, with the sub-pixels that the files have,
     if `supersample` is AUTO. Raises ValueError if files are missing, or belong
@@ -47,13 +63,13 @@ def files_to_take(scene, folder, eye, rim, supersample):
     ask = ": press Render Views"
     found = None
     for ending in ".%04d.exr" % scene.frame_current, ".exr":
-        files = Files(folder, eye.file_suffix, ending, rim)
-        if os.path.exists(files.views[0]):
+        files = Files(folder, eye.file_suffix, ending, rim, moments)
+        if os.path.exists(files.each("center")[0]):
             found = files
             break
     if found is None:
-        raise ValueError("%s is not there%s" % (files.views[0], ask))
-    for path in found.views:
+        raise ValueError("%s is not there%s" % (files.each("center")[0], ask))
+    for path in found.each_of(""):
         header = header_of(path)
         if header is None:
             raise ValueError("%s is not there, or is not whole%s"
@@ -62,10 +78,12 @@ def files_to_take(scene, folder, eye, rim, supersample):
         if frame not in (None, scene.frame_current):
             raise ValueError("%s shows frame %d, not %d%s" % (
                 path, frame, scene.frame_current, ask))
-    header = header_of(found.views[0])
-    shot = shot_of(scene, eye, supersample_of(header)
-                   if supersample == AUTO else supersample)
-    check_camera(header, found.views[0], shot, ask)
+    center = found.each("center")[0]
+    header = header_of(center)
+    finest = supersample_of(header) if supersample == AUTO else supersample
+    shot = shot_of(scene, eye, finest)
+    check_camera(header, center, shot_of_first(scene, eye, finest, moments),
+                 ask)
     return found, shot
 
 
@@ -124,15 +142,19 @@ def warp_commands(folder, files, layer=None):
     centre view says whether see-through layers and a deep view of the volumes
     belong to it. From files with several layers the LDI is always made,
     because the existing one may be of another layer."""
-    layers, volumes = parts_of_file(files.path("center"))
-    ldi, volumes = files.path("ldi"), [files.path(name) for name in volumes]
-    parts = ["", *layers]
-    if not layer and is_newest(ldi, volumes + [
-            view for part in parts for view in files.views_of(part)]):
+    layers, volumes = parts_of_file(files.each("center")[0])
+    parts, ldis = ["", *layers], files.each("ldi")
+    rendered = [view for part in parts for view in files.each_of(part)] + [
+        path for name in volumes for path in files.each(name)]
+    if files.moments > 1:
+        forget_more(ldis[0], files.moments)
+    if not layer and all(is_newest(ldi, rendered) for ldi in ldis):
         return []
-    apart = [files.path("part", part) for part in parts]
+    ldi = files.of_moments("ldi")
+    volumes = [files.of_moments(name) for name in volumes]
+    apart = [files.of_moments("part", part) for part in parts]
     several = layers or volumes
-    noisy = noise_of(files.views[0], layer)
+    noisy = noise_of(files.each("center")[0], layer)
     commands = [
         [tools.tool(folder, "ldi-warp"), *files.views_of(part), "-o",
          made if several else ldi, *(["--layer", layer] if layer else []),

@@ -24,6 +24,8 @@ from .kept import (
 from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
 from .shots import camera_attributes, eyes_of, shot_of
+from .shutter import (
+    Moment, at_moment, check_shutter, forget_more, moments_of, of_moment)
 from .sub_pixels import AUTO, supersample_steps
 from .volumes import check_slices, without_volumes
 
@@ -40,6 +42,16 @@ class Manner:
     slices: int = 0          # of volumes; 0: the views show the volumes
     layers: tuple = ()       # names of see-through things
     keep: bool = False       # keep unchanged views of an earlier run
+    shutter: int = 1         # moments; 1: a still
+    moment: Moment = None    # that is rendered
+
+    @property
+    def attributes(self):
+        return self.moment.attributes if self.moment else {}
+
+    def path(self, whole):
+        """The name of the moment's file, from that of a still's."""
+        return of_moment(whole, self.moment.number) if self.moment else whole
 
 
 @dataclass
@@ -89,12 +101,16 @@ def layer_to_render(scene, name, multilayer, say=warn):
 
 
 def eye_steps(scene, folder, ending, views, eye, manner, count):
-    """All renders of one eye at the current frame."""
+    """All renders of one eye at the current frame, or at a moment of it."""
     def path_in(part):
-        return lambda name: os.path.join(folder, part.folder,
-                                         name + eye.file_suffix + ending)
+        return lambda name: manner.path(os.path.join(
+            folder, part.folder, name + eye.file_suffix + ending))
 
     parts = parts_of(scene, manner.layers)
+    if manner.moment and manner.moment.number == 0:
+        for part in parts:
+            for name in [name for name, _, _ in views] + ["volume"]:
+                forget_more(path_in(part)(name), manner.shutter)
     for part in parts:
         os.makedirs(os.path.join(folder, part.folder), exist_ok=True)
         with ExitStack() as stack:
@@ -106,9 +122,6 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
     if manner.slices and "center" in [name for name, _, _ in views]:
         yield from volume_steps(scene, path_in(parts[0]), eye, manner,
                                 parts[0], count)
-    if manner.finish:
-        yield from halves_steps(scene, path_in(parts[0]), eye, manner,
-                                view_steps)
 
 
 def volume_steps(scene, path_of, eye, manner, rest, count):
@@ -119,11 +132,13 @@ def volume_steps(scene, path_of, eye, manner, rest, count):
     beyond = overscan_of_file(center)
     attributes = manner_attributes(
         scene, manner.layer, False, rest.words) | windows(
-            shot.size, beyond) | {"sparselens:slices": exr_int(manner.slices)}
+            shot.size, beyond) | manner.attributes | {
+                "sparselens:slices": exr_int(manner.slices)}
     if manner.keep and is_kept_volume(path, shot, attributes):
         count.keep([path])
         return
-    with only_layer(scene, manner.layer), finer(scene, manner.supersample):
+    with only_layer(scene, manner.layer), \
+            finer(scene, manner.supersample, manner.shutter):
         yield from slice_steps(
             scene, path, center, shot, beyond, manner, rest.unseen,
             attributes | camera_attributes(shot, shot.placement))
@@ -137,7 +152,7 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
     words = [part.words] if part.words else []
     words += ["without volumes"] if manner.slices else []
     attributes = manner_attributes(scene, manner.layer, manner.multilayer,
-                                   ", ".join(words))
+                                   ", ".join(words)) | manner.attributes
     if not part.alone:
         attributes |= part_attributes(manner)
     pixels = manner.overscan
@@ -151,8 +166,9 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
                     scene, os.path.dirname(center), shot,
                     used_layers(scene))
             pixels = math.ceil(needed / finest)
-            print("sparselens: frame %d%s: overscan of %d pixels" % (
-                scene.frame_current, eye.name and ", " + eye.name, pixels))
+            print("sparselens: frame %g%s: overscan of %d pixels" % (
+                manner.moment.time if manner.moment else scene.frame_current,
+                eye.name and ", " + eye.name, pixels))
     beyond = pixels * finest
     attributes |= windows(shot.size, beyond)
     kept = {name for name, u, _ in views if manner.keep
@@ -167,7 +183,7 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
                 scene, size, manner.multilayer, noisy=denoises(scene)))
             stack.enter_context(still_camera(scene))
             stack.enter_context(only_layer(scene, manner.layer))
-            stack.enter_context(finer(scene, finest))
+            stack.enter_context(finer(scene, finest, manner.shutter))
         for path, u, box in left:
             yield from view_steps(scene, path, shot, u, beyond, box,
                                   attributes, plain=not manner.multilayer)
@@ -180,14 +196,17 @@ def frame_ending(frame, several):
 
 
 def manner_steps(scene, folder, ending, manner):
-    """The manner of a frame, with the number of its sub-pixels."""
+    """The manner of a frame, with the number of its sub-pixels: that of its
+    first moment."""
     if manner.supersample != AUTO:
         return manner
     eye = eyes_of(scene)[0]
-    center = os.path.join(folder, "center" + eye.file_suffix + ending)
+    center = manner.path(os.path.join(
+        folder, "center" + eye.file_suffix + ending))
     with only_layer(scene, manner.layer):
-        found = yield from supersample_steps(scene, center, eye, manner.keep,
-                                             used_layers(scene))
+        found = yield from supersample_steps(
+            scene, center, eye, manner.keep, used_layers(scene),
+            manner.shutter)
     return replace(manner, supersample=found)
 
 
@@ -196,28 +215,39 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     """The views of a list of frames; views_at(frame) returns those of one
     frame. With `several` the names carry the frame's number. Warnings go to
     `say`, once for all frames. Yields the renders, in words."""
-    for text in check_scene(scene):
+    for text in (check_scene(scene, manner.shutter)
+                 + check_shutter(scene, manner.shutter)):
         say(text)
     if manner.finish:
-        check_halves(scene)
+        check_halves(scene, manner.shutter)
     manner.layer = layer_to_render(scene, manner.layer, manner.multilayer, say)
     if manner.slices:
         check_slices(scene, [manner.layer] if manner.layer
                      else used_layers(scene))
     parts_of(scene, manner.layers)
     os.makedirs(folder, exist_ok=True)
-    before = scene.frame_current
+    before, within = scene.frame_current, scene.frame_subframe
     try:
         for frame in frames:
             scene.frame_set(frame)
             views, ending = views_at(frame), frame_ending(frame, several)
-            at_frame = yield from manner_steps(scene, folder, ending, manner)
-            for eye in eyes:
-                yield from eye_steps(scene, folder, ending, views, eye,
-                                     at_frame, count)
+            at_frame = manner
+            for moment in moments_of(scene, frame, manner.shutter):
+                with at_moment(scene, moment):
+                    at_frame = yield from manner_steps(
+                        scene, folder, ending,
+                        replace(at_frame, moment=moment))
+                    for eye in eyes:
+                        yield from eye_steps(scene, folder, ending, views, eye,
+                                             at_frame, count)
+            for eye in eyes if manner.finish else ():
+                yield from halves_steps(
+                    scene, lambda name: os.path.join(
+                        folder, name + eye.file_suffix + ending),
+                    eye, manner, view_steps)
     finally:
-        if scene.frame_current != before:
-            scene.frame_set(before)
+        if (scene.frame_current, scene.frame_subframe) != (before, within):
+            scene.frame_set(before, subframe=within)
 
 
 def render_now(scene, steps):

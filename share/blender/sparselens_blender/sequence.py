@@ -59,7 +59,7 @@ class Pictures:
             os.path.dirname(self.name), "views"))
         self.count, self.made = Count(), 0
         if options.finish:
-            check_halves(scene)
+            check_halves(scene, manner.shutter)
             check_looks(self.looks())
         if options.multilayer and not options.layer:
             used = used_layers(scene)
@@ -81,7 +81,7 @@ class Pictures:
             raise ValueError("-o %s: %d frames need a # in the name, for the "
                              "number" % (self.options.output, len(frames)))
         os.makedirs(os.path.dirname(self.name), exist_ok=True)
-        before = self.scene.frame_current
+        before, within = self.scene.frame_current, self.scene.frame_subframe
         views = views_of_lens(self.options.views, 0)
         try:
             for frame in frames:
@@ -92,7 +92,8 @@ class Pictures:
                 for eye in self.eyes:
                     files = pictures.Files(
                         self.views, eye.file_suffix,
-                        frame_ending(frame, several), self.options.views)
+                        frame_ending(frame, several), self.options.views,
+                        self.manner.shutter)
                     if self.options.finish:
                         yield from halves_steps(
                             self.scene, files.path, eye,
@@ -100,7 +101,7 @@ class Pictures:
                                     finish=self.options.finish), view_steps)
                     yield from self.take(frame, eye, files)
         finally:
-            self.scene.frame_set(before)
+            self.scene.frame_set(before, subframe=within)
             self.say.end()
         self.warn_of_kept()
 
@@ -118,7 +119,7 @@ class Pictures:
         chain = Chain([
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
-                self.tools, files.path("ldi"), gathered,
+                self.tools, files.of_moments("ldi"), gathered,
                 pictures.lens_options(shot, looks)),
             *([pictures.finish_command(self.tools, files, made)]
               if self.options.finish else [])])

@@ -37,25 +37,26 @@ def share_at_edges(rows, shot):
     return (count + sum(marked_above)) / (len(rows) * len(rows[0]))
 
 
-def kept_supersample(scene, eye, center):
+def kept_supersample(scene, eye, center, moments):
     """The supersample of a centre view of an earlier run that may stay."""
     header = header_of(center)
     if header is None:
         return None
     number = supersample_of(header)
-    fits = (samples_of(scene) >= number * number
+    fits = (samples_of(scene) >= number * number * moments
             and is_of_camera(header, shot_of(scene, eye, number), wider=True))
     return number if fits else None
 
 
-def supersample_steps(scene, center, eye, keep, layers):
+def supersample_steps(scene, center, eye, keep, layers, moments):
     """The supersample of the views of this frame, 1 or 2; with `keep`, the one
-    of an earlier run's centre view. A picture of one sample per pixel tells
+    of an earlier run's centre view. Each of the frame's moments has its part
+    of the samples. A picture of one sample per pixel tells
     it, of the view layer with the most edges. The first eye of a scene decides
     for all, so that they are alike."""
-    if samples_of(scene) < 4:
+    if samples_of(scene) < 4 * moments:
         return 1
-    kept = keep and kept_supersample(scene, eye, center)
+    kept = keep and kept_supersample(scene, eye, center, moments)
     if kept:
         return kept
     shot, share = shot_of(scene, eye), 0
@@ -66,6 +67,7 @@ def supersample_steps(scene, center, eye, keep, layers):
             shot, shot.size, layer, "edges")
         share = max(share, share_at_edges(depth_rows(data), shot))
     number = 2 if share >= MANY_EDGES else 1
-    print("sparselens: frame %d: %.1f %% of the pixels are at edges of depth: "
-          "supersample %d" % (scene.frame_current, 100 * share, number))
+    print("sparselens: frame %g: %.1f %% of the pixels are at edges of depth: "
+          "supersample %d" % (scene.frame_current + scene.frame_subframe,
+                              100 * share, number))
     return number

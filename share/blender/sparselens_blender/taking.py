@@ -81,9 +81,10 @@ class Taking:
         warps, drafts, finals = [], [], []
         for eye in eyes_of(scene):
             files, shot = pictures.files_to_take(
-                scene, views, eye, settings.views, supersample_in(settings))
+                scene, views, eye, settings.views, supersample_in(settings),
+                settings.shutter)
             layer = settings.multilayer and used_layers(scene)[0]
-            ldi, made = files.path("ldi"), files.path("picture")
+            ldi, made = files.of_moments("ldi"), files.path("picture")
             sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
             options = pictures.lens_options(shot, looks_of(settings))
             size = [side // shot.supersample for side in shot.size]
