@@ -63,6 +63,17 @@ in_blender pan.blend -P "$views" -- -o names --shutter 4 --frames 2,3 --samples 
 in_blender pan.blend -P "$views" -- -o names --shutter 2 --frames 2,3 --samples 4 --views 1 --overscan 0
 [ "$(ls names | wc -l)" -eq 8 ] || fail "moments of an earlier run: $(ls names)"
 
+# --supersample auto: the first moment decides for all; a moment has its part of the samples, at least one for a sub-pixel.
+in_blender pan.blend --python-expr "import bpy; bpy.context.scene.camera.data.dof.aperture_fstop = 0.5
+bpy.ops.wm.save_as_mainfile(filepath='$PWD/wide.blend')"
+in_blender wide.blend -P "$views" -- -o auto --shutter 2 --frame 3 --samples 8 --views 0 --overscan 0
+[ "$(grep -c 'frame 2.875: .* supersample 2$' said)/$(grep -c 'at edges of depth' said)" = 1/1 ] || fail "--supersample auto: $(cat said)"
+for moment in 0 1; do
+    exrheader auto/center_$moment.exr | grep -F 'ldi.supersample (type int): 2' >/dev/null || fail "--supersample auto: moment $moment"
+done
+in_blender wide.blend -P "$views" -- -o auto --shutter 2 --frame 3 --samples 7 --views 0 --overscan 0
+! exrheader auto/center_0.exr | grep -F 'ldi.supersample' >/dev/null || fail "--supersample auto: 7 samples for 8 sub-pixels"
+
 # Pictures: within a decibel of Cycles' own motion blur as the still is of Cycles' still, and nearer to it than the still.
 for kind in pan; do
     in_blender $kind.blend -P "$variants" -- render 512 3 3 "$PWD/$kind.####.exr"

@@ -14,7 +14,6 @@ from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
-from .shutter import MOST
 from .views import (
     check_plan, counted, numbered, views_of_lens, views_of_plan)
 
