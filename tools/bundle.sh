@@ -10,10 +10,10 @@
 # other formats are missing, and so is the plug-in for OpenImageIO. Needs the Debian packages of
 # tools/install-deps.sh build bundle.
 #
-# The Python module is missing, too, because the archive shall stay below 120 MB. A module is of one version of Python and
-# of one C library, so the archive would need an interpreter (7 MB) with its library (9), NumPy (13), which all pictures
-# are passed by, with LAPACK (11), and the module (6): 46 MB more than the 100 that it has. Of these, 48 are dof-trace and
-# Embree, without which the README's example cannot be run.
+# The Python module is missing, too, because the archive must stay below 120 MB. The module works with one version of
+# Python and one C library only, so the archive would need a Python interpreter (7 MB), its library (9), NumPy (13),
+# LAPACK (11) and the module (6): 46 MB. The archive already has 100 MB. dof-trace and Embree take 48 of them; the
+# README's example needs both.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 fail() {

@@ -67,7 +67,7 @@ void print(const Parameter &row) {
     const std::string help = spelled(row.help, [](const std::string &name, const std::string &value) {
         return value.empty() ? name : name + " " + value;
     });
-    // What a page shows first stands outside the groups.
+    // The parameters that a page shows first are outside the groups.
     const bool first = row.page && !has_slider(row);
     fmt::print("{{{}, {}, {}, {}, ParameterKind::{}, {}, {}, {}, {}, {}, {}}},\n",
                literal(keyword_of(row.name)), literal(label_of(row)), literal(help),

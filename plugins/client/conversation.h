@@ -8,7 +8,7 @@
 /* How an attempt to get an answer ended; after no_answer the reason is the text of the answer. */
 typedef enum { got_answer, gatherer_gone, no_answer } outcome;
 
-/* What was received of a line, which ends with a zero byte. Its memory is used again for the next line. */
+/* The part of a line that has been received, with a zero byte at its end. The next line uses the same memory. */
 typedef struct {
     char *text;
     size_t filled, room;

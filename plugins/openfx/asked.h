@@ -38,8 +38,8 @@ struct Header {
 };
 Header ask_header(const Question &question);
 
-// The pixels of the box, which must lie within the data window: row by row from the top, each with R, G, B and A. A picture
-// without A is opaque.
+// The pixels of the box, which must lie within the data window: row by row from the top, each with R, G, B and A. A
+// picture without A is opaque.
 std::vector<float> ask_pixels(const Question &question, const Header &header, const Box &box);
 
 // Ends the gatherer. Nobody may ask at the same time.

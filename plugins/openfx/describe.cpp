@@ -153,8 +153,7 @@ void describe(OfxImageEffectHandle effect) {
     set(properties, kOfxPropLongLabel, "sparselens depth of field");
     set(properties, kOfxPropPluginDescription,
         "Refocuses a layered depth image, or a flat picture with its depth. dof-view, of the same "
-        "installation, makes "
-        "the pictures.");
+        "installation, makes the pictures.");
     set(properties, kOfxImageEffectPluginPropGrouping, "sparselens");
     int count = 0;
     for (const char *context :

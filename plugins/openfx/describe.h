@@ -1,4 +1,4 @@
-// What the effect tells a host about itself: contexts, pixels, clips and parameters.
+// Describes the effect to a host: contexts, pixels, clips and parameters.
 #pragma once
 
 #include "include/ofxImageEffect.h"

@@ -14,8 +14,8 @@ struct FlatSource {
     Rectangle display; // the project, in the host's pixels
 };
 
-// Reads the clips Source and, if it is connected, Depth, whose only component or whose R is the depth. The scale is that of
-// the render. Throws HostError.
+// Reads the clip Source and, if it is connected, the clip Depth, whose only component, or whose R, is the depth. The
+// scale is that of the render. Throws HostError.
 FlatSource flat_source(OfxImageEffectHandle effect, double time, double scale_x, double scale_y);
 
 } // namespace sparselens_ofx

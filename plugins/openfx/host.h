@@ -36,7 +36,8 @@ void set(OfxPropertySetHandle set, const char *name, double value, int index = 0
 OfxPropertySetHandle properties_of(OfxImageEffectHandle effect);
 OfxParamSetHandle parameters_of(OfxImageEffectHandle effect);
 
-// Shows the error beside the effect until the next clear_error(). A host without windows gets it on standard error, too.
+// Shows the error beside the effect until the next clear_error(). A host without windows also gets it on standard
+// error.
 void show_error(OfxImageEffectHandle effect, const std::string &why);
 void clear_error(OfxImageEffectHandle effect);
 

@@ -9,15 +9,11 @@
 
 namespace sparselens_ofx {
 
-namespace {
-
 OfxImageClipHandle clip_of(OfxImageEffectHandle effect, const char *name, OfxPropertySetHandle *properties) {
     OfxImageClipHandle clip = nullptr;
     if (suites().effects->clipGetHandle(effect, name, &clip, properties) != kOfxStatOK) return nullptr;
     return clip;
 }
-
-} // namespace
 
 Rectangle intersection(const Rectangle &a, const Rectangle &b) {
     return {std::max(a.x1, b.x1), std::max(a.y1, b.y1), std::min(a.x2, b.x2), std::min(a.y2, b.y2)};
@@ -34,7 +30,7 @@ bool is_connected(OfxImageEffectHandle effect, const char *name) {
 }
 
 HostImage::HostImage(OfxImageEffectHandle effect, const char *name, double time) {
-    const OfxImageClipHandle clip = clip_of(effect, name, nullptr);
+    const OfxImageClipHandle clip = clip_of(effect, name);
     if (!clip || suites().effects->clipGetImage(clip, time, nullptr, &image_) != kOfxStatOK || !image_)
         throw HostError(std::string("the host has no image of the clip ") + name);
     const std::string depth = text_in(image_, kOfxImageEffectPropPixelDepth);

@@ -46,6 +46,10 @@ private:
     double pixel_aspect_ = 1;
 };
 
+// The clip of that name; null if the host has none. `properties` receives its properties.
+OfxImageClipHandle clip_of(OfxImageEffectHandle effect, const char *name,
+                           OfxPropertySetHandle *properties = nullptr);
+
 bool is_connected(OfxImageEffectHandle effect, const char *clip);
 
 } // namespace sparselens_ofx

@@ -1,4 +1,4 @@
-// Where the pixels of a host lie in a picture of dof-gather. A host counts rows upwards from the lower edge of the display
+// The place of a host's pixels in a picture of dof-gather. A host counts rows upwards from the lower edge of the display
 // window, in pixels of its render scale; EXR counts them downwards, in pixels of a proxy.
 #pragma once
 
@@ -27,7 +27,7 @@ struct Place {
     int proxy = 1;                   // this many pixels of the full-size picture, across and down, are one
     int left = 0, bottom = 0;        // the host's pixel in the lower left corner of the display window
 
-    // The proxy's pixel in which the middle of the host's pixel lies. For the scale 1/N and the proxy N each has its own.
+    // The proxy's pixel that contains the middle of the host's pixel. Scale 1/N and proxy N have the same pixels.
     int column(int x) const { return int(std::floor(((x - left + 0.5) / scale_x + display.x0) / proxy)); }
     int row(int y) const { return int(std::floor((display.y1 + 1 - (y - bottom + 0.5) / scale_y) / proxy)); }
 };

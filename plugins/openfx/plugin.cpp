@@ -1,5 +1,5 @@
 // An OpenFX effect that refocuses LDIs, or flat pictures with their depth: dof-view --pipe makes the pictures
-// (docs/openfx.md). It needs no library but the C library, and does nothing before a picture is asked for.
+// (docs/openfx.md). It links only the libraries of C and C++, and starts nothing before a picture is asked for.
 #include "asked.h"
 #include "describe.h"
 #include "host.h"
@@ -53,7 +53,8 @@ OfxStatus act(std::string_view action, OfxImageEffectHandle effect, OfxPropertyS
     return status;
 }
 
-// What a host gets in place of an exception. A region of the host's own choice will do until the render tells the error.
+// The status that a host receives for an exception. The host chooses a region itself, and the render then tells the
+// error.
 OfxStatus failed(std::string_view action, OfxImageEffectHandle effect, const std::string &why) {
     if (action == kOfxImageEffectActionGetRegionOfDefinition) return kOfxStatReplyDefault;
     if (action == kOfxImageEffectActionRender) show_error(effect, for_host(why));

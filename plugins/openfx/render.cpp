@@ -91,7 +91,7 @@ private:
     std::vector<float> values_;
 };
 
-// What the image holds of a pixel of the picture, whose colours are multiplied by its coverage.
+// Converts a pixel of the picture, which is premultiplied, to the components of the image.
 std::array<float, 4> in_image(std::array<float, 4> rgba, const HostImage &image) {
     const float alpha = rgba[3];
     if (image.format().components == 1) return {alpha};
@@ -111,15 +111,9 @@ void write_window(const Pixels &pixels, const Place &place, const Rectangle &win
 
 bool is_sequence(const std::string &name) { return name.find_first_of("#%") != std::string::npos; }
 
-OfxImageClipHandle clip_named(OfxImageEffectHandle effect, const char *name) {
-    OfxImageClipHandle clip = nullptr;
-    return suites().effects->clipGetHandle(effect, name, &clip, nullptr) == kOfxStatOK ? clip : nullptr;
-}
-
 double output_aspect(OfxImageEffectHandle effect) {
     OfxPropertySetHandle properties = nullptr;
-    const OfxImageClipHandle clip = clip_named(effect, output_clip);
-    if (!clip || suites().effects->clipGetPropertySet(clip, &properties) != kOfxStatOK) return 1;
+    if (!clip_of(effect, output_clip, &properties)) return 1;
     const double aspect = number_in(properties, kOfxImagePropPixelAspectRatio, 0, 1);
     return aspect > 0 ? aspect : 1;
 }
@@ -173,7 +167,7 @@ OfxStatus regions_of_interest(OfxImageEffectHandle effect, OfxPropertySetHandle 
     const double time = number_in(arguments, kOfxPropTime, 0, 0);
     if (!text_at(effect, ldi_parameter, time).empty()) return kOfxStatReplyDefault;
     for (const char *name : {source_clip, depth_clip}) {
-        const OfxImageClipHandle clip = is_connected(effect, name) ? clip_named(effect, name) : nullptr;
+        const OfxImageClipHandle clip = is_connected(effect, name) ? clip_of(effect, name) : nullptr;
         OfxRectD all{};
         if (clip && suites().effects->clipGetRegionOfDefinition(clip, time, &all) == kOfxStatOK)
             set_region(result, std::string("OfxImageClipPropRoI_") + name, all);

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view placeholder = "%s";
+constexpr std::string_view placeholder = moment_placeholder;
 constexpr const char *moment_name = "sparselens:moment", *moments_name = "sparselens:moments";
 
 // The number that a text of digits spells; a longer text is no number of a moment.
@@ -65,6 +65,14 @@ std::string at_moment(std::string path, const std::string &number) {
     for (std::size_t at = path.find(placeholder); at != std::string::npos;
          at = path.find(placeholder, at + number.size()))
         path.replace(at, placeholder.size(), number);
+    return path;
+}
+
+std::string without_moment(std::string path) {
+    for (std::size_t at = 0; (at = path.find(placeholder)) != std::string::npos;) {
+        const std::size_t before = at > 0 && std::string_view("._-").find(path[at - 1]) < 3 ? 1 : 0;
+        path.erase(at - before, before + placeholder.size());
+    }
     return path;
 }
 

@@ -10,17 +10,22 @@
 
 namespace sparselens {
 
+inline constexpr const char *moment_placeholder = "%s";
+
 // Whether the name has %s, and is not the name of an existing file.
 bool names_moments(const std::string &path);
 
 // The name with the number in the place of each %s.
 std::string at_moment(std::string path, const std::string &number);
 
+// The name without each %s and the dot, line or dash before it: that of the one picture of all moments.
+std::string without_moment(std::string path);
+
 // The numbers of the moments that exist, as the files spell them, ascending. Throws Error if there is none, or if one
 // is missing in between.
 std::vector<std::string> moments_on_disk(const std::string &path);
 
-// Which moment of how many a picture shows, as its header states (from 0), if it does.
+// The moment (from 0) that a picture shows, and the number of moments, if its header states them.
 struct StatedMoment {
     int moment, moments;
 };

@@ -29,7 +29,7 @@ bool read_point(std::string_view line, ShutterCurve::Point &point) {
     return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-// What is wrong with the curve; empty if nothing is.
+// Says what is wrong with the curve; empty if nothing is.
 std::string fault_of(const std::vector<ShutterCurve::Point> &points) {
     if (points.size() < 2 || points.front().time != 0 || points.back().time != 1)
         return "its times must go from 0, when the shutter opens, to 1, when it closes";

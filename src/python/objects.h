@@ -42,8 +42,8 @@ struct PlannedViewObject {
 template <typename Object>
 const Object &argument(const py::object &object, const char *name, const char *wanted);
 
-// Returns the objects of a sequence, or the single object. Throws TypeError, which names the argument, and UsageError if
-// there is none.
+// Returns the objects of a sequence, or the single object. Throws TypeError, which names the argument, and UsageError
+// if there is none.
 template <typename Object>
 std::vector<const Object *> several(const py::object &given, const char *name, const char *wanted);
 

@@ -8,6 +8,7 @@
 #include "support/lens_ldi.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
+#include "support/share_of_disc.h"
 
 #include <ImfIntAttribute.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 namespace sparselens {
@@ -44,17 +44,6 @@ TakenPicture taken(const std::vector<OpenedLdi> &moments, const PictureRequest &
     return take_moments(all, request, {silent, [&](const Notice &notice) {
                                            if (told) told->push_back(notice);
                                        }});
-}
-
-// The share of a disc of this radius, averaged over the pixel, on the left of an edge `to_edge` pixels to the right.
-double share_of_disc(double radius, double to_edge) {
-    constexpr int steps = 64; // over the pixel
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double t = std::clamp((to_edge + (i + 0.5) / steps - 0.5) / radius, -1.0, 1.0);
-        sum += 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
-    }
-    return sum / steps;
 }
 
 // A card with id 1, 8 pixels of CoC in front of focus, whose edge stands at `edge`; a plane in focus with id 2 behind it,

@@ -4,6 +4,7 @@
 #include "dof/methods.h"
 #include "support/lens_ldi.h"
 #include "support/mattes.h"
+#include "support/share_of_disc.h"
 #include "view/view.h"
 #include "warp/warp.h"
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sparselens {
 namespace {
@@ -22,17 +22,6 @@ Image gather(const Ldi &ldi, const GatherMethod &method = gather_methods().front
     Progress silent;
     return method.gather(ldi, lens, ldi.windows.data, {.layers = 8, .lens = {.quality = Quality::final}},
                          silent);
-}
-
-// The share of a disc of this radius, averaged over the pixel, on the left of an edge `to_edge` pixels to the right.
-double share_of_disc(double radius, double to_edge) {
-    constexpr int steps = 64; // over the pixel
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double t = std::clamp((to_edge + (i + 0.5) / steps - 0.5) / radius, -1.0, 1.0);
-        sum += 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
-    }
-    return sum / steps;
 }
 
 // A half plane with id 1 in front of focus, an edge at x = 40; a plane with id 2 in focus behind it.

@@ -1,4 +1,5 @@
-// What a host of OpenFX knows: properties, parameters, clips with their images, effects. Handles are pointers to these.
+// The data of an OpenFX host: effects, with their properties, parameters, and clips with images. A handle is a pointer
+// to one of these.
 #pragma once
 
 #include "../../plugins/openfx/include/ofxImageEffect.h"

@@ -142,7 +142,7 @@ picture make straight.exr 64x36 R=0.5 G=0.25 B=1 A=0.5
 rendered Filter out.exr lens_radius=0 @source=straight.exr @z=z.exr @unpremultiplied=1
 same out.exr straight.exr R,G,B,A 0.000001
 
-# What is wrong is told, and the next render works.
+# The host shows why a render fails, and the next render works.
 head -c 3000 shot.ldi.exr >damaged.exr
 cp damaged.exr mended.exr
 echo no >text.exr

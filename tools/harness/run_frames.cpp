@@ -260,7 +260,8 @@ std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::A
     return names;
 }
 
-// Expands a command line that asks for all views, layers or moments into one command for each. `answered` is the exit code if
+// Expands a command line that asks for all views, layers or moments into one command for each. `answered` is the exit
+// code if
 // --help or the like, or an error in the words, ended it.
 struct EachCommand {
     std::vector<std::vector<std::string>> commands;

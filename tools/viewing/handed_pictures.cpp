@@ -2,14 +2,11 @@
 
 #include "base/error.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/system_error.h"
+#include "io/files/memory_file.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <regex>
 #include <string_view>
@@ -37,30 +34,6 @@ Image image_of(const HandedLayout &layout, const std::string &pixels) {
 
 } // namespace
 
-// A file in memory. It is gone with the object.
-class HandedPictures::File {
-public:
-    explicit File(std::string_view bytes) : file_(::memfd_create("sparselens-handed", MFD_CLOEXEC)) {
-        while (file_ >= 0 && !bytes.empty()) {
-            const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) break;
-            bytes.remove_prefix(std::size_t(written));
-        }
-        if (file_ >= 0 && bytes.empty()) return;
-        if (file_ >= 0) ::close(file_);
-        fail_of_system(name, "cannot keep");
-    }
-    ~File() { ::close(file_); }
-    File(const File &) = delete;
-    File &operator=(const File &) = delete;
-
-    std::string path() const { return fmt::format("/proc/self/fd/{}", file_); }
-
-private:
-    int file_;
-};
-
 std::string HandedPictures::path_of(const HandedLayout &layout, std::string pixels) {
     if (pixels.size() != layout.bytes())
         throw UsageError(fmt::format("the request: {} has {} bytes of pixels instead of {}", name,
@@ -72,7 +45,7 @@ std::string HandedPictures::path_of(const HandedLayout &layout, std::string pixe
         return kept_.front().file->path();
     }
     const Imf::Header no_metadata;
-    const auto file = std::make_shared<const File>(
+    const auto file = std::make_shared<const MemoryFile>(
         flat_exr(name, image_of(layout, pixels), no_metadata, Imf::NO_COMPRESSION));
     if (kept_.size() >= most_kept) kept_.pop_back();
     kept_.push_front({layout, std::move(pixels), file});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/image.h"
+#include "io/files/memory_file.h"
 
 #include <list>
 #include <memory>
@@ -11,7 +12,7 @@
 
 namespace sparselens {
 
-// What is handed over: 32-bit floats of the machine, row by row from the top, each pixel with these channels.
+// The layout of such a picture: 32-bit floats of the machine, row by row from the top, each pixel with these channels.
 struct HandedLayout {
     Windows windows = {};
     std::vector<std::string> channels = {};
@@ -31,11 +32,10 @@ public:
     static std::string in_words(std::string message);
 
 private:
-    class File;
     struct Kept {
         HandedLayout layout;
         std::string pixels;
-        std::shared_ptr<const File> file;
+        std::shared_ptr<const MemoryFile> file;
     };
     std::list<Kept> kept_; // the last used first
 };

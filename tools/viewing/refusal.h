@@ -1,4 +1,4 @@
-// What dof-view answers, to the page or in a pipe, to a request that failed.
+// The answer of dof-view, to the page or in a pipe, to a request that failed.
 #pragma once
 
 #include <string>

@@ -41,20 +41,11 @@ std::string stem_of(const std::string &path) {
     return path == "-" ? "picture" : std::filesystem::path(path).stem().stem().string();
 }
 
-// The name without the number of a moment (io/moment_files.h) and the sign before it: one picture is made of all.
-std::string without_moments(std::string name) {
-    for (std::size_t at = 0; (at = name.find("%s")) != std::string::npos;) {
-        const bool parted = at > 0 && std::string_view("._-").find(name[at - 1]) != std::string_view::npos;
-        name.erase(at - std::size_t(parted), 2 + std::size_t(parted));
-    }
-    return name;
-}
-
 // The name of a file or sequence of pictures made from `input`; it differs from it by "dof", placed before the frame's
 // number if there is one.
 std::string output_name(const std::string &input, const std::string &ending) {
     std::string name = input == "-" ? "picture" : std::filesystem::path(input).filename().string();
-    if (names_moments(input)) name = without_moments(std::move(name));
+    if (names_moments(input)) name = without_moment(std::move(name));
     for (const std::string_view last : {".exr", ".ldi"})
         if (name.ends_with(last) && name.size() > last.size()) name.resize(name.size() - last.size());
     const std::size_t dot = name.rfind('.');

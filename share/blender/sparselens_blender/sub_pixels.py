@@ -51,9 +51,9 @@ def kept_supersample(scene, eye, center, moments):
 def supersample_steps(scene, center, eye, keep, layers, moments):
     """The supersample of the views of this frame, 1 or 2; with `keep`, the one
     of an earlier run's centre view. Each of the frame's moments has its part
-    of the samples. A picture of one sample per pixel tells
-    it, of the view layer with the most edges. The first eye of a scene decides
-    for all, so that they are alike."""
+    of the samples. It is found from a picture of one sample per pixel, of the
+    view layer with the most edges. The first eye of a scene decides for all,
+    so that they are alike."""
     if samples_of(scene) < 4 * moments:
         return 1
     kept = keep and kept_supersample(scene, eye, center, moments)

@@ -13,16 +13,14 @@ namespace sparselens {
 
 namespace {
 
-constexpr const char *placeholder = "%s";
-
-bool has_placeholder(const std::string &word) { return word.find(placeholder) != std::string::npos; }
+bool has_placeholder(const std::string &word) { return word.find(moment_placeholder) != std::string::npos; }
 
 // The first input with %s at the first frame, or nothing.
 std::optional<std::string> input_of_moments(const std::vector<std::string> &words) {
     if (std::ranges::none_of(words, has_placeholder)) return {};
     const std::vector<std::string> first = FrameCommands(words).words(0);
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (is_output_with(placeholder, words, i)) continue;
+        if (is_output_with(moment_placeholder, words, i)) continue;
         const bool is_option = first[i].starts_with("--") && first[i].find('=') != std::string::npos;
         const std::string name = is_option ? first[i].substr(first[i].find('=') + 1) : first[i];
         if (names_moments(name)) return name;
@@ -34,7 +32,7 @@ std::optional<std::string> input_of_moments(const std::vector<std::string> &word
 
 bool asks_for_each_moment(const std::vector<std::string> &words) {
     for (std::size_t i = 0; i < words.size(); ++i)
-        if (is_output_with(placeholder, words, i)) return true;
+        if (is_output_with(moment_placeholder, words, i)) return true;
     return false;
 }
 
