@@ -14,12 +14,13 @@ bl_info = {
 
 import bpy  # noqa: E402
 
-from . import command, panel  # noqa: E402
+from . import command, panel, write_access  # noqa: E402
 
 commands = []  # on Blender's own command line, since 4.2
 
 
 def register():
+    write_access.register()
     panel.register()
     if hasattr(bpy.utils, "register_cli_command"):
         commands.append(bpy.utils.register_cli_command(
@@ -31,3 +32,4 @@ def unregister():
         bpy.utils.unregister_cli_command(made)
     commands.clear()
     panel.unregister()
+    write_access.unregister()

@@ -10,6 +10,7 @@ from .looks import looks_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
 from .sub_pixels import supersample_in
+from .write_access import with_write_access
 
 ERRORS = ValueError, OSError, RuntimeError, ToolError
 
@@ -180,7 +181,7 @@ def follow():
     if follower is None or not scene.sparselens.live:
         stop_following()
         return None
-    follower.tick(scene)
+    with_write_access(lambda: follower.tick(scene))
     return INTERVAL
 
 
