@@ -122,7 +122,7 @@ def stop(addon):
         views = [("center", (0, 0), None)]
         rendering = addon.bit_by_bit.Rendering(scene, addon.renders.views_steps(
             scene, [scene.frame_current], scene.sparselens.folder, lambda frame: views, addon.shots.eyes_of(scene),
-            addon.renders.Manner(overscan=0, supersample=1), addon.renders.Count()))
+            addon.manner.Manner(overscan=0, supersample=1), addon.manner.Count()))
         rendering.begin()
         next(rendering.steps)
         check(scene.camera.name == "sparselens view", "the render has not begun")

@@ -9,11 +9,12 @@ import traceback
 import bpy
 
 from . import panel
+from .manner import Count, Manner
 from .options import read_options
-from .renders import (
-    AUTO, Count, Manner, folder_of, render_now, views_steps)
+from .renders import folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
+from .sub_pixels import AUTO
 from .views import (
     check_plan, counted, numbered, views_of_lens, views_of_plan)
 

@@ -10,11 +10,11 @@ from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
 from .finishing import Finishing
 from .layers import names_of
-from .renders import (
-    AUTO, Count, Manner, folder_of, render_now, views_steps)
+from .manner import Count, Manner
+from .renders import folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of
-from .sub_pixels import supersample_in
+from .sub_pixels import AUTO, supersample_in
 from .taking import (
     ERRORS, Taking, chosen_folder, editors, lens_state, start_following,
     stop_following)

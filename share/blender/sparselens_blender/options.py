@@ -5,8 +5,8 @@ import re
 import shlex
 
 from .layers import names_of
-from .renders import AUTO
 from .shutter import MOST
+from .sub_pixels import AUTO
 
 
 def frame_numbers(text):

@@ -11,9 +11,9 @@ from .chain import Chain, Once
 from .for_a_while import changed
 from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
+from .manner import Count
 from .one_view import view_steps
-from .renders import (
-    Count, folder_of, frame_ending, used_layers, views_steps)
+from .renders import folder_of, frame_ending, used_layers, views_steps
 from .shots import shot_of
 from .views import counted, numbered, views_of_lens
 
