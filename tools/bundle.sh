@@ -60,8 +60,8 @@ loader=$root/lib/ld-linux-x86-64.so.2
 # Each tool starts by a script of its name.
 cat >"$work/start" <<'END'
 #!/bin/sh
-# Starts the program of this name in libexec by the loader and the libraries of this folder.
-self=$(readlink -f "$0")
+# Starts the program of this name in libexec by the loader and the libraries of this folder, whatever the PATH is.
+self=$(command -p readlink -f "$0")
 root=${self%/bin/*}
 exec "$root/lib/ld-linux-x86-64.so.2" --argv0 "$self" --library-path "$root/lib" "$root/libexec/${self##*/}" "$@"
 END
@@ -109,6 +109,9 @@ The tools are in bin/. Unpack the folder anywhere, and call them by their path o
 share/doc/sparselens/README.md says what they do, and licences/ under which licences. In Blender, install
 share/sparselens/blender/sparselens_blender.zip as an add-on. Its preferences have "Install Tools", which takes the archive;
 or name bin/ there.
+
+The Python module is not here, because it works with one version of Python only: build it with pip from the sources
+(share/doc/sparselens/docs/python.md).
 END
 
 size="unpacked $(($(du -s --apparent-size -B1 "$root" | cut -f1) / 1000000)) MB"

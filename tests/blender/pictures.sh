@@ -75,6 +75,10 @@ by_hand still "" --focus-distance 3.5
 same still/picture.exr "the first of two scenes"
 by_hand still-Other "" --focus-distance 4.5
 same still-Other/picture.exr "the second of two scenes"
+another="still/center.exr is a view of scene 'Scene': choose another folder for the views of scene 'Other'"
+stat -c '%n %y' still/*.exr >before
+press small.blend still scene Other set folder="'$PWD/still'" refuse "$another" refuse-render "$another" refuse-finish "$another"
+stat -c '%n %y' still/*.exr | cmp - before || fail "another scene changed the views in its folder"
 if picture same still/center.exr still-Other/center.exr >found 2>&1; then fail "two scenes have one camera"; fi
 # Views with sub-pixels, which the files tell.
 press small.blend fine set supersample=2 render set supersample_auto=True take set supersample_auto=False set supersample=1 refuse "or the picture's size"

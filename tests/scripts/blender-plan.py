@@ -5,6 +5,7 @@ own scenes.
     blender-plan.py FOLDER
 """
 import importlib
+import re
 import sys
 import types
 
@@ -25,14 +26,14 @@ def modules_of(path):
         types=types.SimpleNamespace(PropertyGroup=base, Operator=base, Panel=base, AddonPreferences=base), props=Anything(), app=Anything())
     sys.modules["mathutils"] = types.SimpleNamespace(Matrix=object, Vector=object)
     sys.path.insert(0, path)
-    return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks", "chain")]
+    return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks", "chain", "sub_pixels")]
 
 
 def plan_of(name):
     return {"views": [{"name": name, "lens_point": [1, 0], "rectangles": [[0, 0, 9, 9], [3, 3, 4, 4]]}]}
 
 
-views, checks, chain = modules_of(sys.argv[1])
+views, checks, chain, sub_pixels = modules_of(sys.argv[1])
 expected = [("view_0_0", [1, 0], [0, 0, 9, 9]), ("view_0_1", [1, 0], [3, 3, 4, 4])]
 if views.views_of_plan(plan_of("view_0")) != expected:
     sys.exit(f"views_of_plan: {views.views_of_plan(plan_of('view_0'))}")
@@ -129,3 +130,23 @@ for frame in 1, 2, 3:
 once.end()
 if len(said) != 3 or "37.5 pixels" not in said[0] or "blur" not in said[1] or said[2] != "4 more like these, of other files":
     sys.exit(f"Once: {said}")
+
+# Where --supersample auto takes 2: the thresholds are those of ldi-plan, and so is the share of the pixels at edges.
+# Posts of 5 pixels at the perceptive depth 4, one in 72 pixels, before a wall at 2: 4 columns of 72 are at edges.
+for name, path, value in ("many_edges", "src/plan/tuning.h", sub_pixels.MANY_EDGES), (
+        "torn_px", "src/kernels/surface.h", sub_pixels.TORN):
+    with open(path) as file:
+        found = re.search(r"\b%s = ([0-9.]+);" % name, file.read())
+    if found is None or float(found[1]) != value:
+        sys.exit(f"{name} is {found and found[1]} in {path}, and {value} in sub_pixels.py")
+
+
+def share(nearer, farther=2.0, rows=3):
+    lens = things(lens_radius=0.1, focal_pixels=100)
+    return sub_pixels.share_at_edges([[10 / (nearer if 10 <= x % 72 < 15 else farther) for x in range(144)]] * rows, lens)
+
+
+for found, wanted in (share(4), 4 / 72), (share(2.9), 0), (sub_pixels.share_at_edges(
+        [[1.0] * 4, [0] * 4, [0] * 4], things(lens_radius=0.1, focal_pixels=100)), 2 / 3):
+    if abs(found - wanted) > 1e-9:
+        sys.exit(f"share_at_edges: {found}, not {wanted}")

@@ -10,7 +10,7 @@ from .for_a_while import samples_of
 from .layers import folder_named
 from .shots import camera_attributes, view_placement
 
-NAMES = {"Camera"}  # may change
+NAMES = {"Camera", "sparselens:scene"}  # may change
 
 # The lens may change afterwards, but it must not become wider than the views.
 OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
@@ -108,6 +108,17 @@ def is_of_camera(header, shot, u=(0, 0), wider=False):
     return (fstop <= shot.fstop or wider) and all(
         header.get(name) == value for name, value in wanted.items()
         if name not in OF_THE_LENS | NAMES)
+
+
+def check_scene_of(path, scene, names):
+    """Raises ValueError if the view in this file is of another of the scenes
+    with these names, so that it may neither be used nor lost. The name of a
+    scene that was renamed since is not among them."""
+    header = header_of(path) or {}
+    name = header.get("sparselens:scene", ("", b""))[1].decode()
+    if name != scene and name in names:
+        raise ValueError("%s is a view of scene '%s': choose another folder "
+                         "for the views of scene '%s'" % (path, name, scene))
 
 
 def is_kept(path, shot, u, others):

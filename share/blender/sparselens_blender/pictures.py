@@ -5,9 +5,12 @@ import os
 import struct
 from dataclasses import dataclass
 
+import bpy
+
 from . import tools
 from .exr import channel_list
-from .kept import header_of, is_of_camera, parts_of_file, supersample_of
+from .kept import (
+    check_scene_of, header_of, is_of_camera, parts_of_file, supersample_of)
 from .shots import shot_of
 from .shutter import forget_more, of_moment, shot_of_first
 from .sub_pixels import AUTO
@@ -59,7 +62,7 @@ def files_to_take(scene, folder, eye, rim, supersample, moments=1):
     """The view files of the current frame: those with its number, else those
     without a number; and the camera, with the sub-pixels that the files have,
     if `supersample` is AUTO. Raises ValueError if files are missing, or belong
-    to another frame or camera."""
+    to another scene, frame or camera."""
     ask = ": press Render Views"
     found = None
     for ending in ".%04d.exr" % scene.frame_current, ".exr":
@@ -69,6 +72,8 @@ def files_to_take(scene, folder, eye, rim, supersample, moments=1):
             break
     if found is None:
         raise ValueError("%s is not there%s" % (files.each("center")[0], ask))
+    check_scene_of(found.each("center")[0], scene.name,
+                   bpy.data.scenes.keys())
     for path in found.each_of(""):
         header = header_of(path)
         if header is None:

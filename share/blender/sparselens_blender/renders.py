@@ -19,12 +19,13 @@ from .exr import exr_int
 from .for_a_while import finer, only_layer, render_settings, still_camera
 from .halves import check_halves, halves_steps
 from .kept import (
-    denoises, is_kept, is_kept_volume, manner_attributes, overscan_of_file,
-    part_attributes, windows)
+    check_scene_of, denoises, is_kept, is_kept_volume, manner_attributes,
+    overscan_of_file, part_attributes, windows)
 from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
 from .shots import camera_attributes, eyes_of, shot_of
-from .shutter import at_moment, check_shutter, forget_more, moments_of
+from .shutter import (
+    at_moment, check_shutter, forget_more, moments_of, of_moment)
 from .sub_pixels import AUTO, supersample_steps
 from .volumes import check_slices, without_volumes
 
@@ -157,6 +158,16 @@ def frame_ending(frame, several):
     return ".%04d.exr" % frame if several else ".exr"
 
 
+def check_folder(scene, folder, eyes, endings):
+    """Raises ValueError if views of another scene are where those of this
+    one would go."""
+    for ending in endings:
+        for eye in eyes:
+            center = os.path.join(folder, "center" + eye.file_suffix + ending)
+            for path in center, of_moment(center, 0):
+                check_scene_of(path, scene.name, bpy.data.scenes.keys())
+
+
 def manner_steps(scene, folder, ending, manner):
     """The manner of a frame, with the number of its sub-pixels: that of its
     first moment."""
@@ -187,6 +198,8 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
         check_slices(scene, [manner.layer] if manner.layer
                      else used_layers(scene))
     parts_of(scene, manner.layers)
+    check_folder(scene, folder, eyes,
+                 [frame_ending(frame, several) for frame in frames])
     os.makedirs(folder, exist_ok=True)
     before, within = scene.frame_current, scene.frame_subframe
     try:

@@ -16,6 +16,7 @@ class Shot:
     """The scene's camera at one frame, for one eye, after animation, drivers
     and constraints. In Blender's units, which Cycles treats as metres."""
 
+    scene: str             # its name
     camera: str            # its name
     placement: Matrix      # from camera to world, without a scale
     size: tuple            # of the picture, pixels
@@ -199,7 +200,7 @@ def shot_of(scene, eye, supersample=1):
                                  camera.name, name, scene.frame_current))
     shift = data.shift_x + stereo_shift(data, eye.side), data.shift_y
     return Shot(
-        camera=camera.name, placement=placement,
+        scene=scene.name, camera=camera.name, placement=placement,
         size=(width * supersample, height * supersample),
         pixel_aspect=render.pixel_aspect_x / render.pixel_aspect_y,
         focal_length=data.lens, sensor_width=sensor * width / fitted,
@@ -229,6 +230,7 @@ def camera_attributes(shot, placement):
         "ldi.pixelFilter": exr_text(shot.pixel_filter),
     }
     return subpixels | {
+        "sparselens:scene": exr_text(shot.scene),
         "Camera": exr_text(shot.camera),
         "pinholeFocalLength": exr_float(shot.focal_length),
         "aperture": exr_float(shot.fstop),
