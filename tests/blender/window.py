@@ -6,7 +6,6 @@
 import ctypes
 import os
 import sys
-import time
 import traceback
 
 import bpy
@@ -58,8 +57,7 @@ def escape():
 
 
 def until(true, what):
-    """Waits ten times as long as a slow machine needs: 200 seconds, or more where other programs take the machine, because
-    the steps of the test, ten in a second, then are slower, too."""
+    """Waits for 2000 steps: ten times as long as a slow machine needs. The steps, too, are slower on a busy machine."""
     for _ in range(2000):
         if true():
             return
@@ -191,21 +189,10 @@ def steps(addon, folder, screenshot):
             bpy.ops.screen.screenshot(filepath=screenshot)
 
 
-class EndOfTest(bpy.types.Operator):
-    """Switches the add-on off as Blender's preferences do, by an operator: a timer may be forbidden to."""
-
-    bl_idname, bl_label = "wm.end_of_test", "End of Test"
-
-    def execute(self, context):
-        sys.modules["sparselens_blender"].unregister()
-        return {"FINISHED"}
-
-
 def main(path, folder, screenshot=None):
     sys.path.insert(0, path)
     import sparselens_blender as addon
     addon.register()
-    bpy.utils.register_class(EndOfTest)
     scene = bpy.context.scene
     scene.cycles.samples = 32
     scene.sparselens.folder = folder
@@ -216,7 +203,7 @@ def main(path, folder, screenshot=None):
         try:
             if addon.write_access.with_write_access(lambda: next(running, "done")) != "done":
                 return 0.1
-            bpy.ops.wm.end_of_test()
+            addon.write_access.with_write_access(addon.panel.unregister)
             check(addon.taking.follower is None, "it follows without an add-on")
             print("window.py: all is as it should be", flush=True)
             os._exit(0)
