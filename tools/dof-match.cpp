@@ -1,7 +1,7 @@
 // dof-match: finds the focus distance and the f-stop of a filmed plate.
 #include "base/error.h"
 #include "chain/file_notices.h"
-#include "chain/match_lens.h"
+#include "chain/match_frames.h"
 #include "harness/commands/frames.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
@@ -9,12 +9,12 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/text_file.h"
 #include "measure/text_table.h"
+#include "options/match_json.h"
 #include "options/match_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -50,54 +50,26 @@ void write_shown(const std::string &path, const Image &image) {
         write_flat_exr(path, image, {});
 }
 
-// Matches the frames one after the other; each begins with the lens of the one before.
-class Matching {
-public:
-    Matching(const MatchCommand &options, const ToolContext &tool) : options_(options), tool_(tool) {}
-
-    MatchedLens match(const FrameFiles &files) {
-        LdiRequest request = options_;
-        request.input = files.ldi;
-        const OpenedLdi &in = cache_.load(request, tool_.tell());
-        FlatFile plate = read_flat_exr(files.plate);
-        tell_reading(tool_.tell(), files.plate, plate.notes, plate.warnings);
-        MatchRequest by = options_.match;
-        by.lens = options_.lens;
-        by.near = last_ ? &*last_ : nullptr;
-        MatchedLens found = match_lens(in, plate.image, files.plate, by, *tool_.progress);
-        if (by.near && !found.doubt.empty()) { // look everywhere
-            by.near = nullptr;
-            found = match_lens(in, plate.image, files.plate, by, *tool_.progress);
-        }
-        write_shown(files.show, found.fit);
-        found.fit = {};
-        last_ = found.doubt.empty() ? std::optional(found) : std::nullopt;
-        return found;
+// Matches the frames one after the other. Writes the pictures of their fits.
+MatchedFrames match_frames(const std::vector<FrameFiles> &files, const MatchCommand &options,
+                           const ToolContext &tool) {
+    MatchRequest by = options.match;
+    by.lens = options.lens;
+    FrameMatcher matcher(by);
+    LdiCache cache;
+    for (const FrameFiles &frame : files) {
+        if (frame.number) tool.say(fmt::format("frame {}", *frame.number));
+        LdiRequest request = options;
+        request.input = frame.ldi;
+        const OpenedLdi &in = cache.load(request, tool.tell());
+        const FlatFile plate = read_flat_exr(frame.plate);
+        tell_reading(tool.tell(), frame.plate, plate.notes, plate.warnings);
+        write_shown(frame.show, matcher.match(in, plate.image, frame.plate, *tool.progress));
     }
-
-private:
-    const MatchCommand &options_;
-    const ToolContext &tool_;
-    LdiCache cache_;
-    std::optional<MatchedLens> last_;
-};
+    return matcher.smooth();
+}
 
 using Json = nlohmann::ordered_json;
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json("inf"); }
-Json as_json(const MatchedValue &v) {
-    return {{"value", number(v.value)}, {"interval", {number(v.low), number(v.high)}}};
-}
-
-Json as_json(const MatchedLens &lens) {
-    Json line{{"focus_distance", as_json(lens.focus_distance)}, {"lens_radius", as_json(lens.lens_radius)}};
-    if (lens.fstop) line["fstop"] = as_json(*lens.fstop);
-    line["softness"] = lens.softness;
-    line["matched_share"] = lens.matched_share;
-    line["largest_coc"] = lens.largest_coc;
-    if (!lens.doubt.empty()) line["doubt"] = lens.doubt;
-    return line;
-}
 
 int key_of(const FrameFiles &files) { return files.number.value_or(1); }
 
@@ -108,8 +80,8 @@ Json keys_of(const std::vector<FrameFiles> &files, const std::vector<MatchedLens
         const MatchedLens &lens = lenses[i];
         const std::string frame = fmt::to_string(key_of(files[i]));
         const auto add = [&](const char *name, const MatchedValue &v) {
-            keys[name][frame] = number(v.value);
-            keys["intervals"][name][frame] = {number(v.low), number(v.high)};
+            keys[name][frame] = finite_json(v.value);
+            keys["intervals"][name][frame] = {finite_json(v.low), finite_json(v.high)};
         };
         add("focus_distance", lens.focus_distance);
         add("lens_radius", lens.lens_radius);
@@ -138,29 +110,10 @@ void print(const std::string &text) {
         throw Error("standard output: cannot write");
 }
 
-// Throws Error if fewer than half of the plates can be matched.
-void check(const std::vector<FrameFiles> &files, const std::vector<MatchedLens> &lenses,
-           const ToolContext &tool) {
-    std::size_t failed = 0;
-    for (std::size_t i = 0; i < files.size(); ++i)
-        if (!lenses[i].doubt.empty()) {
-            if (++failed * 2 > files.size())
-                throw Error(fmt::format("{}: {}", files[i].plate, lenses[i].doubt));
-            warn(tool, fmt::format("{}: {}; its values are those of its neighbours", files[i].plate,
-                                   lenses[i].doubt));
-        }
-}
-
 void run(const MatchCommand &options, const ToolContext &tool) {
     const std::vector<FrameFiles> files = files_of(options);
-    std::vector<MatchedLens> lenses;
-    Matching matching(options, tool);
-    for (const FrameFiles &frame : files) {
-        if (frame.number) tool.say(fmt::format("frame {}", *frame.number));
-        lenses.push_back(matching.match(frame));
-    }
-    check(files, lenses, tool);
-    if (files.size() > 1) lenses = smooth_over_frames(lenses);
+    const auto &[lenses, warnings] = match_frames(files, options, tool);
+    for (const std::string &text : warnings) warn(tool, text);
     for (std::size_t i = 0; i < files.size(); ++i) {
         ToolContext of_frame;
         of_frame.tool_name = tool.tool_name;

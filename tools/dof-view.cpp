@@ -73,6 +73,10 @@ void add_pipe_option(CLI::App &app, bool &pipe) {
 void add_options(CLI::App &app, ViewOptions &options) {
     add_picture_making_options(app, options.picture);
     app.add_option("--reference", options.reference, "Picture to compare with (EXR)")->type_name("FILE");
+    app.add_option(
+           "--plate", options.plate,
+           "Filmed plate (EXR) to lie behind the picture; \"match\" finds its lens, as dof-match does")
+        ->type_name("FILE");
     app.add_option("--frames", options.frames,
                    "Frames of a timeline, e.g. 1-100x2 (default: the files that #### in IN stands for)")
         ->type_name("RANGE")

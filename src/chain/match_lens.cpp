@@ -2,26 +2,21 @@
 
 #include "base/error.h"
 #include "base/subpixels.h"
+#include "chain/match_doubt.h"
 #include "chain/match_pictures.h"
-#include "lens/f_number.h"
+#include "chain/match_values.h"
 #include "lens/perceptive_depth.h"
 #include "match/evidence.h"
-#include "match/smooth_keys.h"
 #include "match/tuning.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace sparselens {
 
 namespace {
-
-constexpr double certain = 1.645; // standard deviations to each side that hold 90 %
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Image side_by_side(const Grey &left, const Grey &right) {
     const int width = left.grid.width(), height = left.grid.height();
@@ -82,88 +77,6 @@ KnownLens known_lens_of(const Match &match, const Reduced &in) {
     return known;
 }
 
-// The values and their intervals. Deviations get the error of gathered pictures besides that of the blocks.
-void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit) {
-    const auto &[coc, scale, softness] = fit.guess;
-    const auto wider = [](double variance, double least) {
-        return std::hypot(MatchTuning::joint_blocks * std::sqrt(std::max(variance, 0.0)), least);
-    };
-    const double focus = in.pictures.middle + coc / scale;
-    // The variance of middle + coc / scale.
-    const double by_coc = 1 / scale, by_scale = -coc / (scale * scale);
-    const auto &c = fit.covariance;
-    const double focus_variance =
-        by_coc * by_coc * c[0][0] + 2 * by_coc * by_scale * c[0][1] + by_scale * by_scale * c[1][1];
-    const auto coc_at = [middle = in.pictures.middle, coc = coc, scale = scale](double depth) {
-        return std::abs(coc - scale * (depth - middle));
-    };
-    const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
-    of.largest_coc = in.by() * largest;
-    of.coc_deviation = in.by() * wider(c[0][0], MatchTuning::gather_coc_px);
-    of.focus_deviation = wider(focus_variance, MatchTuning::gather_coc_px / scale) / in.depth_scale();
-    of.radius_deviation =
-        wider(c[1][1] / (scale * scale),
-              std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6)));
-    if (!match.request.match_focus) of.focus_deviation = 0;
-    if (!match.request.match_fstop) of.radius_deviation = 0;
-    of.softness = std::sqrt(softness) * in.by();
-    of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
-    of.lens_radius.value = in.radius() * scale;
-}
-
-void set_intervals(MatchedLens &of, const Camera &camera) {
-    const double focus = 1 / of.focus_distance.value;
-    const auto distance_at = [](double inverse) { return inverse > 0 ? 1 / inverse : infinite; };
-    of.focus_distance.low = distance_at(focus + certain * of.focus_deviation);
-    of.focus_distance.high = distance_at(focus - certain * of.focus_deviation);
-    const double factor = std::exp(certain * of.radius_deviation);
-    of.lens_radius.low = of.lens_radius.value / factor;
-    of.lens_radius.high = of.lens_radius.value * factor;
-    if (!camera.focal_length_mm) return;
-    const auto fstop = [&](double radius) {
-        return fstop_of(radius, *camera.focal_length_mm, camera.metres_per_unit.value_or(1));
-    };
-    of.fstop = {fstop(of.lens_radius.value), fstop(of.lens_radius.high), fstop(of.lens_radius.low)};
-}
-
-// Why these values are not those of the plate's lens.
-std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &fit, const Evidence &evidence,
-                     bool is_ambiguous) {
-    if (evidence.textured < MatchTuning::least_textured)
-        return "the region of the plate shows nothing to compare; choose one with texture";
-    if (lens.matched_share < MatchTuning::least_matched)
-        return fmt::format(
-            "the plate shows something else than the LDI: {:.0f} % of the blocks match; check the "
-            "shot, the frame and the region",
-            100 * lens.matched_share);
-    const double motion = std::hypot(fit.motion[3], fit.motion[4]);
-    if (motion > MatchTuning::motion_variance)
-        return fmt::format(
-            "the plate is blurred by motion over about {:.0f} pixels; choose a region or a frame "
-            "that stands still",
-            in.by() * std::sqrt(12 * motion));
-    if (lens.largest_coc < MatchTuning::all_in_focus_px)
-        return "nothing in the region is out of focus, so any narrow lens fits; choose a region that is "
-               "blurred";
-    if (is_ambiguous)
-        return "the focus may lie in front of or behind what the region shows; choose a region with more "
-               "depths";
-    if (certain * lens.coc_deviation > MatchTuning::widest_coc_px && lens.focus_deviation > 0)
-        return fmt::format(
-            "the focus cannot be told: its blur is certain to {:.1f} pixels only; choose a larger "
-            "region with more texture",
-            certain * lens.coc_deviation);
-    const double stops = 2 / std::numbers::ln2 * certain * lens.radius_deviation;
-    if (stops > MatchTuning::widest_stops)
-        return fmt::format(
-            "the f-stop cannot be told: it is certain to {:.1f} stops only; choose a region with "
-            "more depths, or give the f-stop and `fit=focus`",
-            stops);
-    if (lens.lens_radius.value > MatchTuning::widest * in.radius())
-        return "the plate's lens is wider than that of the LDI; render the views with a wider lens";
-    return {};
-}
-
 } // namespace
 
 MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
@@ -204,40 +117,12 @@ MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::strin
                                     request.near ? MatchTuning::next_frame_steps : MatchTuning::final_steps);
     MatchedLens result;
     set_values(result, match, fine, fit);
-    set_intervals(result, match.camera);
+    set_intervals(result, stops_by_radius(match.camera));
     const Evidence evidence = find_evidence(fine.pictures.plate, fine.pictures.usable, fit.shown);
     result.matched_share = evidence.matched_share();
     result.doubt = doubt_of(result, fine, fit, evidence, is_ambiguous);
     result.fit = side_by_side(brightness(fit.shown), fine.pictures.plate);
     progress.advance();
-    return result;
-}
-
-std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames) {
-    std::vector<KeyedValue> focus, radius;
-    for (const MatchedLens &lens : frames) {
-        const bool is_known = lens.doubt.empty();
-        const auto key = [&](double value, double deviation) {
-            return KeyedValue{is_known ? value : 0, is_known ? std::max(deviation, 1e-12) : infinite};
-        };
-        focus.push_back(key(1 / lens.focus_distance.value, lens.focus_deviation));
-        radius.push_back(key(std::log(lens.lens_radius.value), lens.radius_deviation));
-    }
-    focus = smooth_keys(focus);
-    radius = smooth_keys(radius);
-    std::vector<MatchedLens> result(frames.begin(), frames.end());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        MatchedLens &lens = result[i];
-        const double stops_by = lens.fstop ? lens.fstop->value * lens.lens_radius.value : 0;
-        lens.focus_distance.value = focus[i].value > 0 ? 1 / focus[i].value : infinite;
-        lens.focus_deviation = focus[i].deviation;
-        lens.lens_radius.value = std::exp(radius[i].value);
-        lens.radius_deviation = radius[i].deviation;
-        set_intervals(lens, {});
-        if (lens.fstop)
-            lens.fstop = {stops_by / lens.lens_radius.value, stops_by / lens.lens_radius.high,
-                          stops_by / lens.lens_radius.low};
-    }
     return result;
 }
 

@@ -9,9 +9,7 @@
 #include "../io/open_ldi.h"
 
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 namespace sparselens {
 
@@ -47,9 +45,5 @@ struct MatchRequest {
 // is empty.
 MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
                        const MatchRequest &request, Progress &progress);
-
-// The lenses of neighbouring frames, smooth over time. A frame with a doubt gets the values of its neighbours. At least
-// one must have none.
-std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames);
 
 } // namespace sparselens

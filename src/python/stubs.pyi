@@ -13,7 +13,7 @@ units, above 0, inf where nothing was hit. A lens value that no argument gives i
 Every function that takes long releases the interpreter's lock and ends on Ctrl-C. progress is called with the name of
 the stage and a whole percentage; if it raises, the work ends and the exception is passed on."""
 import os
-from typing import Any, Callable, Literal, Mapping, Optional, Sequence, TypedDict, Union
+from typing import Any, Callable, Literal, Mapping, Optional, Sequence, TypedDict, Union, overload
 
 import numpy
 import numpy.typing
@@ -330,6 +330,20 @@ class _Finished(TypedDict):
     trust: Picture
     error: Picture
 
+class _Matched(TypedDict):
+    value: float
+    interval: _Pair
+
+class _MatchedLens(TypedDict):
+    focus_distance: _Matched
+    lens_radius: _Matched
+    fstop: Optional[_Matched]
+    softness: float
+    matched_share: float
+    largest_coc: float
+    doubt: str
+    fit: Picture
+
 def open_view(
     path: _Path,
     *,
@@ -543,6 +557,45 @@ def finish(
     progress: called with the name of the stage and a whole percentage.
 
     Raises UsageError if there is only one render, and Error if the sizes differ or there are no R, G and B."""
+
+@overload
+def match(
+    ldi: Union[Ldi, Sequence[Ldi]],
+    plate: Sequence[Picture],
+    *,
+    region: Optional[_Box] = None,
+    fit: Literal["both", "focus", "fstop"] = "both",
+    progress: Optional[_Progress] = None,
+    **LENS,
+) -> list[_MatchedLens]: ...
+@overload
+def match(
+    ldi: Ldi,
+    plate: Picture,
+    *,
+    region: Optional[_Box] = None,
+    fit: Literal["both", "focus", "fstop"] = "both",
+    progress: Optional[_Progress] = None,
+    **LENS,
+) -> _MatchedLens:
+    """Finds the lens of a filmed plate, and returns a dict; of a sequence of plates, a list of dicts. Does what
+    dof-match does.
+
+    ldi: an Ldi that shows what the plate shows, from the same camera; for a sequence of plates, one for all or one for
+      each.
+    plate: a Picture of the same size, or a sequence of them, whose lenses are made smooth over time.
+    region: (left, top, right, bottom), compares only these pixels.
+    fit: what to find; the other value is that of the Ldi or of a keyword.
+    progress: called with the name of the stage and a whole percentage.
+    Lens values replace those of the LDI:
+      LENS
+
+    The dict has focus_distance, lens_radius and fstop (None if the focal length is unknown), each as a dict of value
+    and interval, which holds the true value with about 90 %; softness of the whole plate (standard deviation, pixels);
+    matched_share, of the blocks that show something; largest_coc (pixels); doubt, why this plate of a sequence has its
+    neighbours' values, or ""; and fit, a Picture of the gathered picture beside the plate.
+
+    Raises Error if the plate, or most plates of a sequence, cannot be matched, and says why."""
 
 def flatten(ldi: Ldi) -> Picture:
     """Composites the samples of an Ldi front to back and returns the Picture seen without a lens."""

@@ -13,6 +13,7 @@
 #include "python/finish.h"
 #include "python/gather.h"
 #include "python/job.h"
+#include "python/match.h"
 #include "python/objects.h"
 #include "python/told.h"
 #include "python/write.h"
@@ -261,6 +262,7 @@ void bind_verbs(py::module_ &module) {
         .def("cluster", &cluster, py::arg("ldi"), doc::cluster)
         .def("gather", &gather, py::arg("ldi"), doc::gather)
         .def("finish", &finish, py::arg("gathered"), py::arg("rays"), doc::finish)
+        .def("match", &match, py::arg("ldi"), py::arg("plate"), doc::match)
         .def("flatten", &flatten, py::arg("ldi"), doc::flatten)
         .def("front_depth", py::overload_cast<const py::object &>(&front_depth), py::arg("ldi"),
              doc::front_depth)

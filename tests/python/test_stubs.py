@@ -21,6 +21,7 @@ def focus(names: list[str], distance: float) -> numpy.typing.NDArray[numpy.float
     picture = sparselens.gather(ldi, focus_distance=distance, progress=lambda stage, percent: print(stage, percent))
     figures = sparselens.compare(picture, views[0], regions=ldi)
     print(figures["psnr"] + figures["regions"]["blurred"]["ssim"])
+    print(sparselens.match(ldi, picture)["focus_distance"]["value"], len(sparselens.match(ldi, [picture], fit="focus")))
     sparselens.write("picture.exr", picture, type="half")
     return picture.pixels
 '''
@@ -51,9 +52,9 @@ def test_stubs_have_all():
 
 
 def stub_of(name):
-    """The parameters of a function in the stubs."""
+    """The parameters of a function in the stubs; of an overloaded one, those of the last."""
     tree = ast.parse((STUBS / "__init__.pyi").read_text())
-    function, = (node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
+    *_, function = (node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
     return [argument.arg for argument in function.args.args + function.args.kwonlyargs]
 
 
@@ -74,7 +75,7 @@ def test_stubs_have_the_table():
     assert set(stub_of("gather")) == of["gather"] | {"ldi", "progress"}
     assert set(stub_of("open_ldi")) == of["open_ldi"] | lens | {"path"}
     assert of["write"] <= set(stub_of("write"))
-    for name in ("open_view", "warp", "cluster", "show", "plan", "compare"):
+    for name in ("open_view", "warp", "cluster", "match", "show", "plan", "compare"):
         assert lens <= set(stub_of(name)), name
     text, rows = (STUBS / "__init__.pyi").read_text(), {row["name"]: row for row in table}
     for name, row in rows.items():
@@ -90,7 +91,7 @@ LENS = dict(focal_length=36, sensor_width=36, lens_radius=0.1, focus_distance=3)
 LDI = sparselens.Ldi(numpy.array([0, 1], numpy.uint64), numpy.ones(1, numpy.float32), {}, size=(1, 1), **LENS)
 VIEW = sparselens.View(numpy.ones((1, 1, 4), numpy.float32), numpy.ones((1, 1), numpy.float32), **LENS)
 PICTURE = sparselens.Picture(numpy.ones((1, 1, 4), numpy.float32))
-FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [[VIEW]], "show": [LDI, "coc"], "plan": [VIEW],
+FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [[VIEW]], "show": [LDI, "coc"], "plan": [VIEW], "match": [LDI, PICTURE],
          "compare": [VIEW, VIEW], "finish": [PICTURE, [PICTURE, PICTURE]], "write": ["x.exr", VIEW.pixels], "set_limits": []}
 
 

@@ -49,6 +49,26 @@ holds lens_radius 0.052 0.058
 exits 0 "$match" ldi.exr plate.exr --json --scene-unit 0.1 --focus-distance 3 --lens-radius 0.16
 holds fstop 1.55 1.72
 
+# From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
+exits 0 "$match" fence/center.exr plate.exr --json
+holds focus_distance 2.8 3.25
+holds lens_radius 0.1045 0.116
+by_depth() { # by_depth FLAT OPTIONS...: the focus is that of planar depth.
+    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.11 "${@:2}"
+    holds focus_distance "$least" "$most"
+}
+least=2.8 most=3.25 by_depth fence/center.exr
+least=$(awk "BEGIN { print $(value focus_distance) - 0.01 }") most=$(awk "BEGIN { print $(value focus_distance) + 0.01 }")
+with_depth() { # with_depth OUT WORDS...: oiiotool changes the depth by these words.
+    oiiotool fence/center.exr --ch R,G,B,A fence/center.exr --ch Z "${@:2}" --chappend -o "$1"
+}
+with_depth inverse.exr --powc -1
+by_depth inverse.exr --depth inverse
+with_depth normalized.exr --subc 1 --mulc 0.05 # 0 at 1, 1 at 21
+by_depth normalized.exr --depth normalized --near 1 --far 21
+with_depth named.exr --chnames away
+by_depth named.exr --depth-channel away
+
 # Options that all tools share.
 exits 0 "$match" ldi.exr plate.exr --json --threads 1 -o again.json -v
 cmp -s keys.json again.json || fail "--threads changes the keys"

@@ -79,6 +79,7 @@ grep -q "'largest_coc'" stdout || fail "says $(cat stdout)"
 says --frames 1-3 --fstop 1:2,3:4
 grep -q "'fstop': 2.0" stdout || fail "--frames says $(cat stdout)"
 says --reference reference.exr --save . --max-memory 1GB
+says --plate reference.exr
 mkdir path
 printf '#!/bin/sh\ncat "$1" >opened\nstat -c %%a "$1" >>opened\n' >path/xdg-open
 chmod +x path/xdg-open
@@ -87,6 +88,7 @@ grep -qE 'url=http://127.0.0.1:[0-9]+/\?key=[0-9a-f]{32}"' opened && grep -qx 60
 port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 says --port "$port"
 fails_saying 1 'none.exr: cannot open' "$bin/dof-view" ldi.exr --reference none.exr
+fails_saying 1 'none.exr: cannot open' "$bin/dof-view" ldi.exr --plate none.exr
 fails_saying 1 'is not a folder' "$bin/dof-view" ldi.exr --save ldi.exr
 fails_saying 1 'more than --max-memory allows' "$bin/dof-view" ldi.exr --max-memory 1KB
 fails_saying 2 'port' "$bin/dof-view" ldi.exr --port 70000

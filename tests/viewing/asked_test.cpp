@@ -8,16 +8,18 @@ namespace {
 
 TEST(Asked, IsRead) {
     const Asked asked = parse_asked(
-        R"({"page": "k3J9", "settings": {"fstop": "2.8", "tilt": "-3,4"}, "exposure": -1.5, "frame": -3, "pixel": [320, -1]})");
+        R"({"page": "k3J9", "settings": {"fstop": "2.8", "tilt": "-3,4"}, "exposure": -1.5, "frame": -3, "pixel": [320, -1], "region": [-2, 3, 40, 3]})");
     EXPECT_EQ(asked.page, "k3J9");
     EXPECT_EQ(asked.settings, (std::map<std::string, std::string>{{"fstop", "2.8"}, {"tilt", "-3,4"}}));
     EXPECT_EQ(asked.exposure, -1.5);
     EXPECT_EQ(asked.frame, -3);
     EXPECT_EQ(asked.pixel, Imath::V2i(320, -1));
+    EXPECT_EQ(asked.region, Imath::Box2i({-2, 3}, {40, 3}));
     const Asked least = parse_asked(R"({"page": "a"})");
     EXPECT_TRUE(least.settings.empty());
     EXPECT_FALSE(least.frame);
     EXPECT_FALSE(least.pixel);
+    EXPECT_FALSE(least.region);
     EXPECT_EQ(least.format, "exr");
     EXPECT_EQ(parse_asked(R"({"page": "a", "format": "png"})").format, "png");
 }
@@ -37,6 +39,9 @@ TEST(Asked, AnythingElseIsRefused) {
                              R"({"page": "a", "settings": {"fstop": 2}})",
                              R"({"page": "a", "settings": {"lens": "/etc/passwd"}})",
                              R"({"page": "a", "settings": {"fstop": "2 3"}})",
+                             R"({"page": "a", "region": [0, 0, 1]})",
+                             R"({"page": "a", "region": [0, 0, 1, 1.5]})",
+                             R"({"page": "a", "region": [5, 0, 4, 9]})",
                              R"({"page": "a", "exposure": "1"})",
                              R"({"page": "a", "exposure": 21})",
                              R"({"page": "a", "format": "../a"})",

@@ -446,6 +446,25 @@ def fits_small_windows(browser):
         browser.resize(1280, 720)
 
 
+def matches_plates(browser):
+    """The plate lies behind the picture, and gives the lens by which it was gathered."""
+    truth = ["--lens-radius", "0.11", "--focus-distance", "3"]
+    subprocess.run([folder + "/dof-gather", ldi, *truth, "-o", "plate.exr"], check=True)
+    with served(folder + "/dof-view", ldi, "--lens-radius", "0.16", "--plate", "plate.exr") as server:
+        page = Page(browser, server)
+        browser.until("part('below').width === 160")
+        browser.press("r")
+        browser.pointer(("move", *page.at(140, 80)), ("down",), ("move", *page.at(60, 40)), ("move", *page.at(10, 5)), ("up",))
+        assert browser.run("return plate.region") == [10, 5, 140, 80]
+        assert "fstop" not in browser.run("return state.settings"), "the drag did more than draw"
+        page.shot("region")
+        page.does(browser.press, "m")
+        assert 2.9 < browser.run("return focusNow()") < 3.1
+        assert 0.159 < browser.run("return apertureNow()") < 0.168 # f-number of 36 mm and a radius of 0.11 m: 0.1636
+        assert browser.run("return part('said').textContent").startswith("matched: focus ")
+        page.shot("matched")
+
+
 def main():
     with served(folder + "/dof-view", ldi, "--reference", reference) as server, tempfile.TemporaryDirectory() as profile:
         browser = driver.Browser(profile)
@@ -478,6 +497,7 @@ def main():
             has_pieces(browser)
             knows_objects(browser)
             guesses_a_lens(browser)
+            matches_plates(browser)
             survives_names(browser)
             fits_small_windows(browser)
             outlives_the_server(browser)

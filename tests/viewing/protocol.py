@@ -17,7 +17,7 @@ import time
 from served import apart, served
 
 program, ldi, reference = sys.argv[1] + "/dof-view", sys.argv[2], sys.argv[3]
-ANSWERED = "/facts", "/picture", "/pieces", "/reference", "/rendered", "/objects", "/samples", "/progress", "/commands", "/save"
+ANSWERED = "/facts", "/picture", "/pieces", "/reference", "/plate", "/match", "/rendered", "/objects", "/samples", "/progress", "/commands", "/save"
 
 
 def knows_the_options(server):
@@ -57,6 +57,25 @@ def answers(server):
     assert "fstop=2.5" in command["python"] and "tilt=(-3,4)" in command["python"], command
 
 
+def matches_plates(folder):
+    """The lens of a plate that was gathered by another lens, in a region; what cannot be matched is said."""
+    plate = os.path.join(folder, "plate.exr")
+    truth = ["--lens-radius", "0.11", "--focus-distance", "3"]
+    subprocess.run([sys.argv[1] + "/dof-gather", ldi, *truth, "-o", plate], check=True)
+    with served(program, ldi, "--lens-radius", "0.16", "--plate", plate) as server:
+        assert server.said("/facts")["plate"]
+        said, shown = server.picture("/plate")
+        same = server.picture(settings={"lens-radius": "0.11", "focus-distance": "3"})[1]
+        same = [value for i, value in enumerate(same) if i % 4 < 3] # the file's A is 1, rounded
+        assert said["channels"] == 3 and max(abs(a - b) for a, b in zip(shown, same, strict=True)) <= 1
+        found = server.said("/match", settings={"lens-radius": "0.05"}, region=[10, 0, 149, 89])
+        assert 2.9 < found["focus_distance"]["value"] < 3.1 and 0.106 < found["lens_radius"]["value"] < 0.114, found
+        code, said = server.send("/match", b'{"page": "a", "settings": {}, "region": [0, 0, 9, 9]}')
+        assert code != 200 and b"nothing to compare" in said, (code, said)
+    with served(program, ldi) as server:
+        assert status(server, {"page": "a", "settings": {}}, "/match") == 400
+
+
 def status(server, body, path="/picture", **headers):
     headers = {name.replace("_", "-"): value for name, value in headers.items()}
     return server.send(path, body if isinstance(body, bytes) else json.dumps(body).encode(), headers)[0]
@@ -76,7 +95,8 @@ def refuses(server):
     for headers in ({"Host": "localhost:9000"}, {"Host": f"[::1]:{port}"}, {"Origin": f"http://127.0.0.1:{port}"}):
         assert status(server, good, **headers) == 200, headers
     for body in (b"", b"{", b"[]", b"null", b"\xff\xfe", b"[" * 16000, b'{"page": 1}', b'{"page": "../a"}', b'{"settings": {}}', b'{"page":"a","x":1}',
-                 b'{"page":"a","pixel":[1]}', b'{"page":"a","pixel":[1e99,2]}', b'{"page":"a","exposure":1e9}', b'{"page":"a","settings":[]}'):
+                 b'{"page":"a","pixel":[1]}', b'{"page":"a","pixel":[1e99,2]}', b'{"page":"a","exposure":1e9}', b'{"page":"a","settings":[]}',
+                 b'{"page":"a","region":[1,2,3]}', b'{"page":"a","region":[4,0,3,9]}'):
         assert status(server, body) == 400, body
     # A page can name no file, and can only set options of the picture.
     for settings in ({"lens": "x"}, {"holdout": "x"}, {"colorconfig": "x"}, {"output": "x"}, {"threads": "9"}, {"aperture": "x"}, {"device": "gpu"},
@@ -270,6 +290,7 @@ def main():
         assert sorted(os.listdir(folder)) == sorted(map(os.path.basename, files)) and len(set(files)) == 2, files
     with tempfile.TemporaryDirectory() as folder:
         knows_frames(folder)
+        matches_plates(folder)
     with served(program, ldi) as server: # as when its terminal is closed
         os.kill(server.process.pid, signal.SIGHUP)
         assert server.process.wait(timeout=20) == -signal.SIGHUP

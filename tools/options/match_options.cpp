@@ -87,6 +87,7 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
         ->transform(words(
             std::map<std::string, Fit>{{"both", Fit::both}, {"focus", Fit::focus}, {"fstop", Fit::fstop}}));
     add_parameters(app, lens_parameters(), options.lens);
+    add_parameters(app, depth_parameters(), options.depth);
     add_examples(app, {{"Find the lens of a filmed rack of focus",
                         "dof-match shot.ldi.exr plate.####.exr --region 200,100,600,340 -o keys.json"},
                        {"Find the focus alone, with the f-stop of the camera report",

@@ -77,6 +77,15 @@ Imath::V2i pixel_of(const Json &value) {
     return {value[0].get<int>(), value[1].get<int>()};
 }
 
+Imath::Box2i region_of(const Json &value) {
+    if (!value.is_array() || value.size() != 4 || !std::ranges::all_of(value, is_whole))
+        refuse("region is not four whole numbers");
+    const Imath::Box2i box({value[0].get<int>(), value[1].get<int>()},
+                           {value[2].get<int>(), value[3].get<int>()});
+    if (box.isEmpty()) refuse("region is empty");
+    return box;
+}
+
 } // namespace
 
 Asked parse_asked(std::string_view text) {
@@ -97,6 +106,8 @@ Asked parse_asked(std::string_view text) {
             asked.exposure = exposure_of(value);
         else if (name == "pixel")
             asked.pixel = pixel_of(value);
+        else if (name == "region")
+            asked.region = region_of(value);
         else
             refuse("it has a name that is unknown");
     }

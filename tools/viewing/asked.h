@@ -3,6 +3,7 @@
 // 180]}.
 #pragma once
 
+#include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
 #include <map>
@@ -17,10 +18,11 @@ struct Asked {
     // Options of dof-gather without dashes -> their values. An empty value resets the option to the server's command
     // line.
     std::map<std::string, std::string> settings;
-    std::optional<int> frame;        // the frame's number in a sequence; empty: the first
-    std::string format = "exr";      // file format of the commands: "exr" or "png"
-    double exposure = 0;             // stops, [-20, 20]
-    std::optional<Imath::V2i> pixel; // in the picture, EXR coordinates
+    std::optional<int> frame;           // the frame's number in a sequence; empty: the first
+    std::string format = "exr";         // file format of the commands: "exr" or "png"
+    double exposure = 0;                // stops, [-20, 20]
+    std::optional<Imath::V2i> pixel;    // in the picture, EXR coordinates
+    std::optional<Imath::Box2i> region; // of the picture: [left, top, right, bottom], the last ones included
 };
 
 // Longer requests are refused.

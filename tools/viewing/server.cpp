@@ -53,11 +53,13 @@ Routes routes_of(Viewer &viewer) {
             {"/picture", {bytes, [&](const Asked &asked) { return viewer.picture(asked); }}},
             {"/pieces", {bytes, [&](const Asked &asked) { return viewer.pieces(asked); }}},
             {"/reference", {bytes, [&](const Asked &asked) { return viewer.reference(asked); }}},
+            {"/plate", {bytes, [&](const Asked &asked) { return viewer.plate(asked); }}},
             {"/rendered", {bytes, [&](const Asked &asked) { return viewer.rendered(asked); }}},
             {"/objects", {bytes, [&](const Asked &asked) { return viewer.objects(asked); }}},
             {"/samples", {json, [&](const Asked &asked) { return viewer.samples(asked); }}},
             {"/progress", {json, [&](const Asked &asked) { return viewer.progress(asked); }}},
             {"/commands", {json, [&](const Asked &asked) { return viewer.commands(asked); }}},
+            {"/match", {json, [&](const Asked &asked) { return viewer.match(asked); }}},
             {"/save", {json, [&](const Asked &asked) { return viewer.save(asked); }}}};
 }
 

@@ -19,7 +19,8 @@ namespace sparselens {
 namespace {
 
 // Options that only dof-view has; the flags take no value.
-constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
+constexpr std::array own_options{"--reference", "--plate",   "--port",      "--save",
+                                 "--frames",    "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "--pipe", "-v", "--verbose"};
 
 const Parameter *parameter_of(const std::string &option) {

@@ -2,8 +2,9 @@
 
 #include "base/error.h"
 #include "base/subpixels.h"
-#include "io/exr/exr_flat.h"
+#include "chain/match_lens.h"
 #include "io/moment_files.h"
+#include "options/match_json.h"
 #include "viewing/lens_guess.h"
 
 #include <fmt/format.h>
@@ -72,7 +73,9 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
     guess_ = lens_guess(*first, first->camera(options.picture));
     if (!guess_.empty()) warn(tool, guess_in_words(guess_));
     words_.insert(words_.end(), guess_.begin(), guess_.end());
-    if (!options.reference.empty()) reference_of(options.reference);
+    const auto is_there = [](const Image &) {};
+    if (!options.reference.empty()) reference_.with(options.reference, is_there);
+    if (!options.plate.empty()) plate_.with(options.plate, is_there);
     if (!options.save.empty() && !std::filesystem::is_directory(options.save))
         throw Error(options.save + ": is not a folder, where --save could write");
 }
@@ -114,6 +117,7 @@ std::string Viewer::facts(const Asked &asked) {
                {"lens_method", command.picture.method == &gather_methods().front()},
                {"looks", look_controls(options_.presets)},
                {"reference", !options_.reference.empty()},
+               {"plate", !options_.plate.empty()},
                {"save", !options_.save.empty()},
                {"objects", !frame->names.empty()},
                {"nearest", json_number(frame->depths.nearest)},
@@ -192,18 +196,40 @@ std::optional<std::string> Viewer::picture(const Asked &asked) {
                         [this, words, asked](Progress &progress) { return answer(words, asked, progress); });
 }
 
-std::optional<std::string> Viewer::reference(const Asked &asked) {
-    const std::string path = value_of("--reference", frames_.words(frame_of(asked)));
-    if (path.empty()) throw UsageError("there is no reference: start dof-view with --reference");
-    const Reel::Held frame = shot_.frame(command_of_frame(asked));
-    const std::lock_guard lock(reference_mutex_); // one copy at a time, however many ask
-    const ShownPixels pixels = Shot::displayed(reference_of(path), asked.exposure, *frame);
-    return with_bytes(size_of(pixels), pixels.values);
+std::string Viewer::file_of(const Asked &asked, const char *option) const {
+    const std::string path = value_of(option, frames_.words(frame_of(asked)));
+    if (path.empty())
+        throw UsageError(fmt::format("there is no {}: start dof-view with {}", option + 2, option));
+    return path;
 }
 
-const Image &Viewer::reference_of(const std::string &path) {
-    if (!reference_ || reference_->path != path) reference_ = Reference{path, read_flat_exr(path).image};
-    return reference_->image;
+std::string Viewer::beside(const Asked &asked, const char *option, KeptFile &file) {
+    const std::string path = file_of(asked, option);
+    const Reel::Held frame = shot_.frame(command_of_frame(asked));
+    return file.with(path, [&](const Image &image) {
+        const ShownPixels pixels = Shot::displayed(image, asked.exposure, *frame);
+        return with_bytes(size_of(pixels), pixels.values);
+    });
+}
+
+std::optional<std::string> Viewer::reference(const Asked &asked) {
+    return beside(asked, "--reference", reference_);
+}
+std::optional<std::string> Viewer::plate(const Asked &asked) { return beside(asked, "--plate", plate_); }
+
+std::optional<std::string> Viewer::match(const Asked &asked) {
+    const std::string path = file_of(asked, "--plate");
+    const GatherCommand shot = command_of_frame(asked), shown = command_of(words_of(asked));
+    return studio_.make(asked.page + "/match", [=, this](Progress &progress) {
+        const Reel::Held frame = shot_.frame(shot);
+        OpenedLdi in = frame->unpacked();
+        in.camera.supersample = frame->across;
+        const MatchRequest request{.region = asked.region, .lens = shot.lens, .looks = shown.looks};
+        const MatchedLens lens = plate_.with(
+            path, [&](const Image &plate) { return match_lens(in, plate, path, request, progress); });
+        if (!lens.doubt.empty()) throw Error(path + ": " + lens.doubt);
+        return as_json(lens).dump();
+    });
 }
 
 std::optional<std::string> Viewer::rendered(const Asked &asked) {

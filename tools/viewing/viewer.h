@@ -3,6 +3,7 @@
 
 #include "harness/commands/frames.h"
 #include "viewing/asked.h"
+#include "viewing/kept_file.h"
 #include "viewing/pieces.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
@@ -18,8 +19,8 @@ namespace sparselens {
 
 struct ViewOptions {
     GatherCommand picture;
-    std::string reference, save; // a file; a folder; empty: none
-    std::string frames;          // read by FrameCommands
+    std::string reference, plate, save; // files; a folder; empty: none
+    std::string frames;                 // read by FrameCommands
     Presets presets = {};
     int port = 0;      // 0: any free port
     bool open = false; // open a browser
@@ -42,6 +43,7 @@ public:
     std::optional<std::string> picture(const Asked &asked);
     std::string pieces(const Asked &asked); // the JSON gives their positions; their pixels follow in order
     std::optional<std::string> reference(const Asked &asked);
+    std::optional<std::string> plate(const Asked &asked);
     std::optional<std::string> rendered(const Asked &asked); // without depth of field
 
     // In the same form, with the two bytes of ObjectMap for each pixel.
@@ -54,12 +56,16 @@ public:
     std::string commands(const Asked &asked) const;
     std::optional<std::string> save(const Asked &asked);
 
+    // JSON: the lens of the plate, in a region of the picture if one is given; the looks are those of the page.
+    std::optional<std::string> match(const Asked &asked);
+
 private:
     std::size_t frame_of(const Asked &asked) const;
     Words words_of_frame(std::size_t i) const;
     Words words_of(const Asked &asked) const;
     GatherCommand command_of_frame(const Asked &asked) const;
-    const Image &reference_of(const std::string &path); // the caller holds its mutex
+    std::string beside(const Asked &asked, const char *option, KeptFile &file); // as picture()
+    std::string file_of(const Asked &asked, const char *option) const;
     std::shared_ptr<const ShotPicture> taken(const Words &words, const GatherCommand &command,
                                              Progress &progress, const TileWatch *watch = nullptr);
     void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
@@ -72,12 +78,7 @@ private:
     FrameCommands frames_;
     const ToolContext &tool_;
     Shot shot_;
-    struct Reference {
-        std::string path;
-        Image image;
-    };
-    std::mutex reference_mutex_;
-    std::optional<Reference> reference_; // the last one requested
+    KeptFile reference_, plate_;
     // The last picture and its settings; it can be shown at another exposure.
     struct Last {
         Words words;

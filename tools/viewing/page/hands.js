@@ -4,6 +4,7 @@ const place = { zoom: 1, x: 0, y: 0, fitted: true };
 function showPlace() {
     part('stack').style.transform = 'translate(' + place.x + 'px,' + place.y + 'px) scale(' + place.zoom + ')';
     part('stack').classList.toggle('far', place.zoom < 2);
+    showRegion();
     showCompared();
 }
 
@@ -35,11 +36,16 @@ function pan(x, y) {
     showPlace();
 }
 
+// Pixels right and down of the first pixel of the picture to the pointer, also beside the picture.
+function placeOf(event) {
+    const frame = part('frame').getBoundingClientRect();
+    return [Math.floor((event.clientX - frame.left - place.x) / place.zoom / state.facts.pixel_aspect),
+        Math.floor((event.clientY - frame.top - place.y) / place.zoom)];
+}
+
 // The pixel of the picture under the pointer, in EXR coordinates; null beside the picture.
 function pixelAt(event) {
-    const frame = part('frame').getBoundingClientRect(), { width, height, min, pixel_aspect } = state.facts;
-    const x = Math.floor((event.clientX - frame.left - place.x) / place.zoom / pixel_aspect);
-    const y = Math.floor((event.clientY - frame.top - place.y) / place.zoom);
+    const { width, height, min } = state.facts, [x, y] = placeOf(event);
     return x < 0 || y < 0 || x >= width || y >= height ? null : [x + min[0], y + min[1]];
 }
 
@@ -129,6 +135,8 @@ const keys = {
     t: ['tiles: lens points', () => setOverlay('tiles')],
     e: ['the eye at one point of the lens: drag moves it', () => part('eye').click()],
     x: ['the samples of the pixel', () => setList(!listed.on)],
+    r: ['draw the rectangle that match compares', () => part('rectangle').click()],
+    m: ['match: the lens of the plate', () => part('match').click()],
     k: ['set a key at this frame', setKey],
     h: ['hide or show the panel', () => part('panel').click()],
     ',': ['the frame before', () => step(-1)],

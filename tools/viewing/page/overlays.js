@@ -49,17 +49,18 @@ async function setComparing(mode) {
     showCompared();
 }
 
-// Draws the picture to compare with. "As rendered" is taken by a lens without aperture.
+// Draws the picture to compare with, else the plate as the background. "As rendered" is taken by a lens without
+// aperture.
 async function loadTarget() {
-    if (!comparing.mode) return;
-    comparing.target = part('with').value;
+    if (!comparing.mode && !state.facts.plate) return;
+    comparing.target = comparing.mode ? part('with').value : 'plate';
     try {
         if (comparing.target === 'kept') {
             if (comparing.kept) draw(part('below'), comparing.kept);
             return;
         }
         const settings = { 'lens-radius': '0' };
-        const response = comparing.target === 'reference' ? await ask('reference', { exposure: state.exposure })
+        const response = ['reference', 'plate'].includes(comparing.target) ? await ask(comparing.target, { exposure: state.exposure })
             : await ask('rendered', { settings, exposure: state.exposure });
         if (response) draw(part('below'), (await pictureOf(response)).data);
     } catch (error) {

@@ -6,11 +6,13 @@ async function start() {
     part('frame').tabIndex = 0;
     startPanel();
     startOverlays();
+    startPlate();
     startTime();
     startPointer();
     startKeys();
     for (const canvas of [part('above'), part('below'), part('marks')]) draw(canvas, new ImageData(1, 1));
     restoreFromAddress();
+    loadTarget();
     fit();
     part('frame').focus();
     await changed();

@@ -1,0 +1,66 @@
+#include "chain/match_values.h"
+
+#include "lens/f_number.h"
+#include "lens/perceptive_depth.h"
+#include "match/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+// Deviations get the error of gathered pictures besides that of the blocks.
+void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit) {
+    const auto &[coc, scale, softness] = fit.guess;
+    const auto wider = [](double variance, double least) {
+        return std::hypot(MatchTuning::joint_blocks * std::sqrt(std::max(variance, 0.0)), least);
+    };
+    const double focus = in.pictures.middle + coc / scale;
+    // The variance of middle + coc / scale.
+    const double by_coc = 1 / scale, by_scale = -coc / (scale * scale);
+    const auto &c = fit.covariance;
+    const double focus_variance =
+        by_coc * by_coc * c[0][0] + 2 * by_coc * by_scale * c[0][1] + by_scale * by_scale * c[1][1];
+    const auto coc_at = [middle = in.pictures.middle, coc = coc, scale = scale](double depth) {
+        return std::abs(coc - scale * (depth - middle));
+    };
+    const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
+    of.largest_coc = in.by() * largest;
+    of.coc_deviation = in.by() * wider(c[0][0], MatchTuning::gather_coc_px);
+    of.focus_deviation = wider(focus_variance, MatchTuning::gather_coc_px / scale) / in.depth_scale();
+    of.radius_deviation =
+        wider(c[1][1] / (scale * scale),
+              std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6)));
+    if (!match.request.match_focus) of.focus_deviation = 0;
+    if (!match.request.match_fstop) of.radius_deviation = 0;
+    of.softness = std::sqrt(softness) * in.by();
+    of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
+    of.lens_radius.value = in.radius() * scale;
+}
+
+std::optional<double> stops_by_radius(const Camera &camera) {
+    if (!camera.focal_length_mm) return {};
+    return fstop_of(1, *camera.focal_length_mm, camera.metres_per_unit.value_or(1));
+}
+
+void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius) {
+    const double focus = 1 / of.focus_distance.value;
+    const auto distance_at = [](double inverse) { return inverse > 0 ? 1 / inverse : infinite; };
+    of.focus_distance.low = distance_at(focus + certain * of.focus_deviation);
+    of.focus_distance.high = distance_at(focus - certain * of.focus_deviation);
+    const double factor = std::exp(certain * of.radius_deviation);
+    of.lens_radius.low = of.lens_radius.value / factor;
+    of.lens_radius.high = of.lens_radius.value * factor;
+    if (!stops_by_radius) return;
+    const auto fstop = [&](double radius) { return *stops_by_radius / radius; };
+    of.fstop = {fstop(of.lens_radius.value), fstop(of.lens_radius.high), fstop(of.lens_radius.low)};
+}
+
+} // namespace sparselens
