@@ -5,6 +5,8 @@ as they would be now. Other changes of the scene leave no trace in a file.
 import struct
 from dataclasses import replace
 
+import bpy
+
 from .exr import exr_box, exr_int, exr_text, read_header
 from .for_a_while import samples_of
 from .layers import folder_named
@@ -110,15 +112,16 @@ def is_of_camera(header, shot, u=(0, 0), wider=False):
         if name not in OF_THE_LENS | NAMES)
 
 
-def check_scene_of(path, scene, names):
-    """Raises ValueError if the view in this file is of another of the scenes
-    with these names, so that it may neither be used nor lost. The name of a
-    scene that was renamed since is not among them."""
+def check_scene_of(path, scene):
+    """Raises ValueError if the view in this file is of another scene of the
+    .blend file: it may be neither used nor overwritten. A name that no scene
+    has is the former name of one that was renamed."""
     header = header_of(path) or {}
     name = header.get("sparselens:scene", ("", b""))[1].decode()
-    if name != scene and name in names:
+    if name != scene.name and name in bpy.data.scenes:
         raise ValueError("%s is a view of scene '%s': choose another folder "
-                         "for the views of scene '%s'" % (path, name, scene))
+                         "for the views of scene '%s'"
+                         % (path, name, scene.name))
 
 
 def is_kept(path, shot, u, others):

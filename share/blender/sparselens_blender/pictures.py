@@ -5,8 +5,6 @@ import os
 import struct
 from dataclasses import dataclass
 
-import bpy
-
 from . import tools
 from .exr import channel_list
 from .kept import (
@@ -72,8 +70,7 @@ def files_to_take(scene, folder, eye, rim, supersample, moments=1):
             break
     if found is None:
         raise ValueError("%s is not there%s" % (files.each("center")[0], ask))
-    check_scene_of(found.each("center")[0], scene.name,
-                   bpy.data.scenes.keys())
+    check_scene_of(found.each("center")[0], scene)
     for path in found.each_of(""):
         header = header_of(path)
         if header is None:

@@ -165,7 +165,7 @@ def check_folder(scene, folder, eyes, endings):
         for eye in eyes:
             center = os.path.join(folder, "center" + eye.file_suffix + ending)
             for path in center, of_moment(center, 0):
-                check_scene_of(path, scene.name, bpy.data.scenes.keys())
+                check_scene_of(path, scene)
 
 
 def manner_steps(scene, folder, ending, manner):

@@ -1,20 +1,19 @@
 """Write access to the scene for callbacks of timers.
 
-Blender has one flag for all threads that forbids writes while a panel is
-drawn. If a render's thread sets and restores it meanwhile, it can remain set,
-and from then on no timer can write in this session (bpy_class_call() in
-Blender's bpy_rna.cc). Blender allows writes in the update function of a
-property, whatever the flag, and allows to set properties of the window
-manager.
+Blender forbids writes while a panel is drawn, by one flag for all threads. If
+a render's thread sets and restores the flag meanwhile, it can remain set. From
+then on, no timer can write in this session (bpy_class_call() in Blender's
+bpy_rna.cc). The update function of a property may write in any case, and the
+properties of the window manager can be set in any case.
 """
 
 import bpy
 
-tasks = []
+tasks = []  # (function, where its result goes)
 
 
 def run_task(_, __):
-    """Blender prints errors of update functions: this one keeps its own."""
+    """Keeps the error of the task: Blender would only print it."""
     function, results = tasks.pop()
     try:
         results.append((function(), None))
