@@ -8,18 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace sparselens {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-} // namespace
-
+// The lenses of neighbouring frames, smooth over time. A frame with a doubt gets the values of its neighbours. At least
+// one must have none.
 std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames) {
     std::vector<KeyedValue> focus, radius;
     for (const MatchedLens &lens : frames) {
@@ -37,7 +35,7 @@ std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames)
         MatchedLens &lens = result[i];
         std::optional<double> by;
         if (lens.fstop) by = lens.fstop->value * lens.lens_radius.value;
-        lens.focus_distance.value = focus[i].value > 0 ? 1 / focus[i].value : infinite;
+        lens.focus_distance.value = distance_at(focus[i].value);
         lens.focus_deviation = focus[i].deviation;
         lens.lens_radius.value = std::exp(radius[i].value);
         lens.radius_deviation = radius[i].deviation;
@@ -45,6 +43,8 @@ std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames)
     }
     return result;
 }
+
+} // namespace
 
 Image FrameMatcher::match(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
                           Progress &progress) {

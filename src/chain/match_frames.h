@@ -31,8 +31,4 @@ private:
     std::vector<MatchedLens> lenses_;
 };
 
-// The lenses of neighbouring frames, smooth over time. A frame with a doubt gets the values of its neighbours. At least
-// one must have none.
-std::vector<MatchedLens> smooth_over_frames(std::span<const MatchedLens> frames);
-
 } // namespace sparselens

@@ -69,8 +69,8 @@ BlurGuess guess_near(const MatchedLens &near, const Reduced &in) {
 
 KnownLens known_lens_of(const Match &match, const Reduced &in) {
     KnownLens known;
-    if (!match.request.match_fstop) known.scale = 1;
-    if (match.request.match_focus) return known;
+    if (match.request.fit == MatchFit::focus) known.scale = 1;
+    if (match.request.fit != MatchFit::fstop) return known;
     if (!match.camera.focus_distance)
         throw UsageError("the focus distance is unknown: give `focus_distance`");
     known.focus = perceptive_depth(in.depth_scale(), *match.camera.focus_distance);

@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// A value, and the range that holds it with a certainty of 90 %.
+// A value, and the range that should hold the true one in 90 % of cases.
 struct MatchedValue {
     double value = 0, low = 0, high = 0;
 };
@@ -33,12 +33,15 @@ struct MatchedLens {
     Image fit = {}; // the gathered picture beside the plate, in grey, tone-mapped as they were compared
 };
 
+// What to find. The other value of the lens is right.
+enum class MatchFit { both, focus, fstop };
+
 struct MatchRequest {
-    std::optional<Imath::Box2i> region = {};     // pixels of the plate; empty: all
-    LensValues lens = {};                        // override the file's values
-    GivenLooks looks = {};                       // the shape of the lens
-    bool match_focus = true, match_fstop = true; // otherwise that value of the lens is right
-    const MatchedLens *near = nullptr;           // where to look first: the lens of the frame before
+    std::optional<Imath::Box2i> region = {}; // pixels of the plate; empty: all
+    LensValues lens = {};                    // override the file's values
+    GivenLooks looks = {};                   // the shape of the lens
+    MatchFit fit = MatchFit::both;
+    const MatchedLens *near = nullptr; // where to look first: the lens of the frame before
 };
 
 // Throws Error if the plate has another size or no colours, UsageError if a value of the lens is unknown or the region

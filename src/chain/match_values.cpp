@@ -6,15 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sparselens {
-
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-} // namespace
 
 // Deviations get the error of gathered pictures besides that of the blocks.
 void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit) {
@@ -38,8 +31,8 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     of.radius_deviation =
         wider(c[1][1] / (scale * scale),
               std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6)));
-    if (!match.request.match_focus) of.focus_deviation = 0;
-    if (!match.request.match_fstop) of.radius_deviation = 0;
+    if (match.request.fit == MatchFit::fstop) of.focus_deviation = 0;
+    if (match.request.fit == MatchFit::focus) of.radius_deviation = 0;
     of.softness = std::sqrt(softness) * in.by();
     of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
     of.lens_radius.value = in.radius() * scale;
@@ -50,9 +43,10 @@ std::optional<double> stops_by_radius(const Camera &camera) {
     return fstop_of(1, *camera.focal_length_mm, camera.metres_per_unit.value_or(1));
 }
 
+double distance_at(double inverse) { return inverse > 0 ? 1 / inverse : infinite; }
+
 void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius) {
     const double focus = 1 / of.focus_distance.value;
-    const auto distance_at = [](double inverse) { return inverse > 0 ? 1 / inverse : infinite; };
     of.focus_distance.low = distance_at(focus + certain * of.focus_deviation);
     of.focus_distance.high = distance_at(focus - certain * of.focus_deviation);
     const double factor = std::exp(certain * of.radius_deviation);

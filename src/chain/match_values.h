@@ -1,14 +1,19 @@
-// The values of a matched lens, from what the search found, and the ranges that hold the true ones.
+// The values of a matched lens, from what the search found, and the ranges that should hold the true ones.
 #pragma once
 
 #include "chain/match_lens.h"
 #include "chain/match_pictures.h"
 
+#include <limits>
 #include <optional>
 
 namespace sparselens {
 
 inline constexpr double certain = 1.645; // standard deviations to each side that hold 90 %
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The distance whose reciprocal this is; infinite if that is not above 0.
+double distance_at(double inverse);
 
 void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit);
 

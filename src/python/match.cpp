@@ -12,8 +12,6 @@ namespace sparselens::python {
 
 namespace {
 
-enum class Fit { both, focus, fstop };
-
 struct Asked : MatchRequest {
     py::object progress = {};
 };
@@ -22,11 +20,11 @@ Asked asked_by(const py::kwargs &given) {
     Keywords keywords("match", given);
     Asked asked;
     asked.region = keywords.box("region");
-    const Fit fit =
-        keywords.word<Fit>("fit", {{"both", Fit::both}, {"focus", Fit::focus}, {"fstop", Fit::fstop}})
-            .value_or(Fit::both);
-    asked.match_focus = fit != Fit::fstop;
-    asked.match_fstop = fit != Fit::focus;
+    asked.fit =
+        keywords
+            .word<MatchFit>(
+                "fit", {{"both", MatchFit::both}, {"focus", MatchFit::focus}, {"fstop", MatchFit::fstop}})
+            .value_or(MatchFit::both);
     asked.lens = lens_values(keywords);
     asked.progress = keywords.take("progress");
     keywords.done();

@@ -591,9 +591,9 @@ def match(
       LENS
 
     The dict has focus_distance, lens_radius and fstop (None if the focal length is unknown), each as a dict of value
-    and interval, which holds the true value with about 90 %; softness of the whole plate (standard deviation, pixels);
-    matched_share, of the blocks that show something; largest_coc (pixels); doubt, why this plate of a sequence has its
-    neighbours' values, or ""; and fit, a Picture of the gathered picture beside the plate.
+    and interval, which should hold the true value in 90 % of cases; softness of the whole plate (standard deviation,
+    pixels); matched_share, of the blocks that show something; largest_coc (pixels); doubt, why this plate of a sequence
+    has its neighbours' values, or ""; and fit, a Picture of the gathered picture beside the plate.
 
     Raises Error if the plate, or most plates of a sequence, cannot be matched, and says why."""
 

@@ -10,13 +10,12 @@
 
 #include <array>
 #include <charconv>
+#include <map>
 #include <optional>
 
 namespace sparselens {
 
 namespace {
-
-enum class Fit { both, focus, fstop };
 
 // Parses "X,Y,WIDTH,HEIGHT"; nothing for other text and for a size below 1.
 std::optional<Imath::Box2i> parse_rectangle(const std::string &text) {
@@ -75,17 +74,12 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
            },
            "Compare only these pixels: the upper left one, y down, and the size (default: all)")
         ->type_name("X,Y,W,H");
-    app.add_option_function<std::string>(
-           "--fit",
-           [&options](const std::string &number) {
-               const auto fit = Fit(number.front() - '0');
-               options.match.match_focus = fit != Fit::fstop;
-               options.match.match_fstop = fit != Fit::focus;
-           },
-           "What to find; the other value is that of the file or of an option (default: both)")
+    const std::map<std::string, MatchFit> fits{
+        {"both", MatchFit::both}, {"focus", MatchFit::focus}, {"fstop", MatchFit::fstop}};
+    app.add_option("--fit", options.match.fit,
+                   "What to find; the other value is that of the file or of an option (default: both)")
         ->type_name("both|focus|fstop")
-        ->transform(words(
-            std::map<std::string, Fit>{{"both", Fit::both}, {"focus", Fit::focus}, {"fstop", Fit::fstop}}));
+        ->transform(words(fits));
     add_parameters(app, lens_parameters(), options.lens);
     add_parameters(app, depth_parameters(), options.depth);
     add_examples(app, {{"Find the lens of a filmed rack of focus",
