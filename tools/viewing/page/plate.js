@@ -52,7 +52,7 @@ function takeLens(lens) {
     state.settings[aperture()] = asText(asNumber(size.value), 4);
     changed();
     const range = (of) => asText(asNumber(of.value), 3) + ' (' + of.interval.map((end) => asText(asNumber(end), 3)).join(' to ') + ')';
-    say('matched: focus ' + range(focus) + ', ' + part('aperture_name').textContent + ' ' + range(size) + '; the ranges hold with 90 %', true);
+    say('matched: focus ' + range(focus) + ', ' + part('aperture_name').textContent + ' ' + range(size) + '; ranges of 90 %', true);
 }
 
 function startPlate() {
