@@ -16,7 +16,8 @@ using namespace sparselens::lab;
 void trace(const TraceOptions &options, const ToolContext &tool) {
     const Scene scene = build_scene(options.scene);
     const Camera camera = camera_with_options(options.lens, scene.camera);
-    const RenderSettings settings = render_settings(options, camera), view = view_settings(options, camera);
+    const RenderSettings settings = render_settings(options, camera, scene.camera_motion),
+                         view = view_settings(options, camera, scene.camera_motion);
     const Tracer tracer(seen_after(scene, options.dolly));
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
     const TraceJob job{options, tracer, settings, view, view_samples(options), outputs, *tool.progress};

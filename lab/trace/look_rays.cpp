@@ -23,7 +23,7 @@ struct Batch {
     std::array<LensPoint, batch_size> points;
     std::array<Ray, batch_size> rays;
     std::array<Imath::C4f, batch_size> radiance;
-    std::array<double, batch_size> depth, inverse_focus;
+    std::array<double, batch_size> time, depth, inverse_focus;
     std::array<bool, batch_size> passes;
 };
 
@@ -63,6 +63,7 @@ private:
         Batch batch;
         points_.in_pixel(x, y, first, std::span(batch.in_pixel).first(n));
         points_.on_lens(x, y, first, std::span(batch.on_lens).first(n));
+        points_.in_time(settings_.exposure, x, y, first, std::span(batch.time).first(n));
         if (settings_.light == Light::area) points_.on_light(x, y, first, std::span(batch.on_light).first(n));
         for (std::size_t i = 0; i < n; ++i) {
             batch.in_pixel[i] += Imath::V2d(x, y);
@@ -75,7 +76,8 @@ private:
     void trace(Batch &batch, std::size_t colour, std::size_t n) const {
         for (std::size_t i = 0; i < n; ++i) {
             batch.inverse_focus[i] = rays_.inverse_focus(batch.in_pixel[i], colour);
-            batch.rays[i] = rays_.ray(batch.points[i].u, batch.in_pixel[i], batch.inverse_focus[i]);
+            batch.rays[i] =
+                rays_.ray(batch.points[i].u, batch.in_pixel[i], batch.inverse_focus[i], batch.time[i]);
         }
         trace_radiance(tracer_, settings_.light, std::span(batch.rays).first(n),
                        std::span(batch.on_light).first(n), std::span(batch.radiance).first(n));
@@ -124,13 +126,13 @@ double LookRays::inverse_focus(const Imath::V2d &p, std::size_t colour) const {
            (shift == 0 ? 0 : shift / (lens.radius * lens.focal_px));
 }
 
-Ray LookRays::ray(const Imath::V2d &u, const Imath::V2d &p, double inverse_focus) const {
-    Ray ray = view_ray(settings_, u, without_breathing(p));
+Ray LookRays::ray(const Imath::V2d &u, const Imath::V2d &p, double inverse_focus, double time) const {
+    Ray ray = view_ray_at_rest(settings_, u, without_breathing(p), time);
     const Imath::V2d o =
         settings_.lens.radius * u * inverse_focus +
         skewed(field_.skew(without_breathing(p)), u) / (looks_.magnification * settings_.lens.focal_px);
     ray.direction -= Imath::V3d(o.x, o.y, 0);
-    return ray;
+    return from_camera(settings_, ray);
 }
 
 Image render_looks(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress) {

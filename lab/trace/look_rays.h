@@ -25,7 +25,7 @@ public:
 
     // The inverse of the focus distance at p for R, G or B (0, 1 or 2); 0 or less is at infinity or beyond.
     double inverse_focus(const Imath::V2d &p, std::size_t colour) const;
-    Ray ray(const Imath::V2d &u, const Imath::V2d &p, double inverse_focus) const;
+    Ray ray(const Imath::V2d &u, const Imath::V2d &p, double inverse_focus, double time) const;
 
 private:
     Imath::V2d without_breathing(const Imath::V2d &p) const {

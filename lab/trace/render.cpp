@@ -94,15 +94,25 @@ std::vector<int> columns_asked(std::span<const std::uint8_t> asked_row, int widt
 
 } // namespace
 
-Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
-    const Imath::V2d d = direction_through(settings, p), o = settings.lens.radius * u;
-    return {{o.x, o.y, settings.dolly}, {d.x, d.y, 1}};
+Ray from_camera(const RenderSettings &settings, const Ray &at_rest) {
+    if (!settings.camera.moves()) return at_rest;
+    const Placement camera(settings.camera, at_rest.time);
+    return {camera.point(at_rest.origin), camera.direction(at_rest.direction), at_rest.time};
 }
 
-Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
+Ray view_ray_at_rest(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time) {
+    const Imath::V2d d = direction_through(settings, p), o = settings.lens.radius * u;
+    return {{o.x, o.y, 0}, {d.x, d.y, 1}, time};
+}
+
+Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time) {
+    return from_camera(settings, view_ray_at_rest(settings, u, p, time));
+}
+
+Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time) {
     const Imath::V2d o = settings.lens.radius * u;
     const Imath::V2d d = direction_through(settings, p) - o / settings.lens.focus;
-    return {{o.x, o.y, settings.dolly}, {d.x, d.y, 1}};
+    return from_camera(settings, {{o.x, o.y, 0}, {d.x, d.y, 1}, time});
 }
 
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
@@ -114,9 +124,11 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
     const bool scatters = settings.light == Light::area || tracer.scene().mirrors;
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p;
+        std::array<double, batch_size> time;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
+        points.in_time(settings.exposure, run.x, run.y, run.first, std::span(time).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
-            run.rays[i] = view_ray(settings, u, p[i] + Imath::V2d(run.x, run.y));
+            run.rays[i] = view_ray(settings, u, p[i] + Imath::V2d(run.x, run.y), time[i]);
         if (scatters) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     const std::size_t width = std::size_t(settings.windows.width());
@@ -142,10 +154,13 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
     const bool scatters = settings.light == Light::area || tracer.scene().mirrors;
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p, on_lens;
+        std::array<double, batch_size> time;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
         points.on_lens(run.x, run.y, run.first, std::span(on_lens).first(run.rays.size()));
+        points.in_time(settings.exposure, run.x, run.y, run.first, std::span(time).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
-            run.rays[i] = lens_ray(settings, disc_point(on_lens[i]), p[i] + Imath::V2d(run.x, run.y));
+            run.rays[i] =
+                lens_ray(settings, disc_point(on_lens[i]), p[i] + Imath::V2d(run.x, run.y), time[i]);
         if (scatters) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     progress.start("reference", std::size_t(settings.windows.height()));

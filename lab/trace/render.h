@@ -19,7 +19,8 @@ struct RenderSettings {
     Windows windows;
     ThinLens lens; // its focal length is used even if its radius is 0
     Light light = Light::sun;
-    double dolly = 0;              // how far the camera has moved along z, scene units
+    Motion camera = {};            // of the camera, in world space, which is its space at rest
+    Exposure exposure = {};        // depths are those in the middle of it
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
     std::uint32_t stream = 0;      // of the reference, below 2^26: different streams share no noise
     LensLooks looks = {};          // of the reference
@@ -32,11 +33,22 @@ inline std::uint32_t seeded(const RenderSettings &settings, std::uint32_t stream
     return stream + (settings.seed << 26);
 }
 
+// The ray of the camera at rest, where it stands at the ray's time.
+Ray from_camera(const RenderSettings &settings, const Ray &at_rest);
+
 // The ray from lens point `u` (unit disc) through position p of the picture (pixels, y down), with parallel axes.
-Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
+Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time);
+inline Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
+    return view_ray(settings, u, p, settings.exposure.middle());
+}
+// The same for the camera at rest.
+Ray view_ray_at_rest(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time);
 
 // The ray from lens point `u` to the point of the focus plane that is seen at p through the centre of the lens.
-Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
+Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p, double time);
+inline Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
+    return lens_ray(settings, u, p, settings.exposure.middle());
+}
 
 // The picture through a pinhole at lens point `u`: R G B A (half, box filter of one pixel) and Z (float, at the pixel
 // centre). With samples = n * n, not scattered, each pixel has a regular n x n grid; else the points have low

@@ -15,8 +15,9 @@ namespace {
 struct Direction {
     unsigned degree, coefficients, initial[4];
 };
-constexpr Direction directions[SobolPoints::dimensions - 1] = {
-    {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}, {4, 1, {1, 1, 3, 3}}};
+constexpr Direction directions[SobolPoints::dimensions - 1] = {{1, 0, {1}},          {2, 1, {1, 3}},
+                                                               {3, 1, {1, 3, 1}},    {3, 2, {1, 1, 1}},
+                                                               {4, 1, {1, 1, 3, 3}}, {4, 4, {1, 3, 5, 13}}};
 
 // Bit k of the index flips these bits of the coordinate, highest bit = 1/2.
 std::array<std::uint32_t, 32> generator(std::size_t dimension) {
@@ -58,8 +59,8 @@ std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-// The use of each pair of coordinates. The lens has the best pair, because it blurs most.
-enum Dimension : std::size_t { lens_pair = 0, pixel_pair = 2, light_pair = 4 };
+// The use of each coordinate. The lens has the best pair, because it blurs most.
+enum Dimension : std::size_t { lens_pair = 0, pixel_pair = 2, light_pair = 4, time = 6 };
 
 std::vector<Imath::V2d> regular_grid(int samples) {
     const int n = int(std::lround(std::sqrt(samples)));
@@ -95,17 +96,20 @@ PixelSamples::PixelSamples(int count, bool regular, std::uint32_t stream)
     : points_(std::uint32_t(count)), grid_(regular ? regular_grid(count) : std::vector<Imath::V2d>()),
       stream_(stream) {}
 
+std::uint32_t PixelSamples::seed_of(int x, int y, std::size_t dimension) const {
+    return mix_bits(mix_bits(std::uint32_t(x), mix_bits(std::uint32_t(y), stream_)),
+                    std::uint32_t(dimension));
+}
+
 void PixelSamples::pairs(std::size_t dimension, int x, int y, std::uint32_t first,
                          std::span<Imath::V2d> out) const {
-    const std::uint32_t seed = mix_bits(std::uint32_t(x), mix_bits(std::uint32_t(y), stream_));
     constexpr std::size_t run = 64;
     std::array<double, run> a, b;
     for (std::size_t begin = 0; begin < out.size(); begin += run) {
         const std::size_t n = std::min(run, out.size() - begin);
         const std::uint32_t from = first + std::uint32_t(begin);
-        points_.coordinates(dimension, mix_bits(seed, std::uint32_t(dimension)), from, std::span(a).first(n));
-        points_.coordinates(dimension + 1, mix_bits(seed, std::uint32_t(dimension + 1)), from,
-                            std::span(b).first(n));
+        points_.coordinates(dimension, seed_of(x, y, dimension), from, std::span(a).first(n));
+        points_.coordinates(dimension + 1, seed_of(x, y, dimension + 1), from, std::span(b).first(n));
         for (std::size_t i = 0; i < n; ++i) out[begin + i] = {a[i], b[i]};
     }
 }
@@ -117,6 +121,16 @@ void PixelSamples::in_pixel(int x, int y, std::uint32_t first, std::span<Imath::
 
 void PixelSamples::on_lens(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const {
     pairs(lens_pair, x, y, first, out);
+}
+
+void PixelSamples::in_time(const Exposure &exposure, int x, int y, std::uint32_t first,
+                           std::span<double> out) const {
+    if (exposure.instant()) {
+        std::ranges::fill(out, exposure.opens);
+        return;
+    }
+    points_.coordinates(time, seed_of(x, y, time), first, out);
+    for (double &share : out) share = exposure.at(share);
 }
 
 void PixelSamples::on_light(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const {

@@ -2,6 +2,7 @@
 // looks along +z with x right and y up. Lengths are in scene units; light is scene-linear.
 #pragma once
 
+#include "lab/trace/motion.h"
 #include "view/camera.h"
 
 #include <Imath/ImathColor.h>
@@ -37,6 +38,13 @@ struct Sphere {
     Material material;
 };
 
+// An object that moves while the shutter is open, as it stands at rest. Its materials move with it.
+struct MovingBody {
+    std::vector<Quad> quads;
+    std::vector<Sphere> spheres;
+    Motion motion;
+};
+
 // A homogeneous volume between two planes that face the camera. A ray that crosses it from z0 to z1 loses 1 -
 // exp(-density (z1 - z0)) of the light from behind, whatever its slant: optical depth is proportional to planar depth,
 // so one deep sample with Z and ZBack describes the slab exactly for every lens point.
@@ -49,12 +57,14 @@ struct Slab {
 struct Scene {
     std::vector<Quad> quads;
     std::vector<Sphere> spheres;
-    std::vector<Slab> slabs;
+    std::vector<MovingBody> bodies;
+    std::vector<Slab> slabs;  // they move with the camera
     bool mirrors = false;     // some material reflects, so every hit is checked
     bool translucent = false; // there are slabs, or coverage below 1: rays composite every hit
     Imath::C3f sky{0, 0, 0};  // radiance of rays without a hit; z = inf
     float sky_coverage = 1;   // their alpha: 1, or 0 if there is no sky
-    Camera camera;            // the default lens: focal length, sensor width, f-number, focus, scene unit
+    Motion camera_motion;
+    Camera camera; // the default lens: focal length, sensor width, f-number, focus, scene unit
 };
 
 } // namespace sparselens::lab

@@ -1,10 +1,11 @@
 #include "lab/trace/scenes.h"
 
 #include "base/error.h"
+#include "lab/trace/fair.h"
 #include "lab/trace/macro.h"
 #include "lab/trace/materials.h"
 #include "lab/trace/planes.h"
-#include "lens/f_number.h"
+#include "lab/trace/scene_parts.h"
 
 #include <fmt/format.h>
 
@@ -15,37 +16,13 @@ namespace sparselens::lab {
 
 namespace {
 
-// A lens of 36 mm and a film back 36 mm wide: the picture spans x / z from -1/2 to 1/2.
-Camera default_camera(double lens_radius, double focus_distance) {
-    Camera camera;
-    camera.focal_length_mm = 36;
-    camera.sensor_width_mm = 36;
-    camera.fstop = fstop_of(lens_radius, *camera.focal_length_mm);
-    camera.focus_distance = focus_distance;
-    camera.metres_per_unit = 1;
-    return camera;
-}
-
-// The floor and wall of fence and grass.
-Scene floor_and_wall() {
-    Scene scene;
-    scene.sky = {0.3f, 0.4f, 0.6f};
-    scene.camera = default_camera(0.06, 5);
-    scene.quads.push_back({{{{-12, -1, 1}, {12, -1, 1}, {12, -1, 30}, {-12, -1, 30}}}, floor_tiles});
-    scene.quads.push_back({{{{-15, -1, 18}, {15, -1, 18}, {15, 10, 18}, {-15, 10, 18}}}, wall_tiles});
-    return scene;
-}
-
 Scene fence() {
     Scene scene = floor_and_wall();
     scene.spheres = {{{0, -0.3, 5}, 0.7, dots},
                      {{1.6, -0.2, 8}, 0.8, stripes},
                      {{-1.7, -0.4, 3.4}, 0.6, stripes},
                      {{-2.8, 0.4, 11}, 1.4, dots}};
-    for (int i = 0; i < 14; ++i) {
-        const double x = -1.1 + 0.16 * i, w = 0.02, z = 2.2;
-        scene.quads.push_back({{{{x, -1, z}, {x + w, -1, z}, {x + w, 1, z}, {x, 1, z}}}, dark});
-    }
+    add_fence(scene);
     for (int i = 0; i < 40; ++i)
         scene.spheres.push_back({{-8 + 16 * hash(i, 1, 2), 3 * hash(i, 3, 4), 17}, 0.04, lamp});
     return scene;
@@ -63,12 +40,6 @@ Scene grass() {
         scene.quads.push_back({{{{x, -1, z}, {x + w, -1, z}, {x + w + t, 1, z}, {x + t, 1, z}}}, stripes});
     }
     return scene;
-}
-
-// A rectangle at depth z that faces the camera and spans these slopes x / z, y / z.
-Quad facing(double z, double left, double bottom, double right, double top, Material material) {
-    const double x0 = z * left, x1 = z * right, y0 = z * bottom, y1 = z * top;
-    return {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}}, material};
 }
 
 Scene planes() { return planes_scene(default_camera(0.06, 5)); }
@@ -226,6 +197,8 @@ constexpr SceneEntry scenes[] = {
     {"element", "spheres and bars at five depths before nothing: alpha 0 beside them", element},
     {"plate", "a room with two balls that stand among the objects of element", plate},
     {"element-in-plate", "both in one", element_in_plate},
+    {"fair", "a wheel that turns, a ball behind the fence and lamps that move, from a camera that pans",
+     fair_scene},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
     {"macro", "a head of steep relief, 85 mm and f/1 away, lamps of radiance 200 behind it", macro_scene},
     {"scales", "a cone of overlapping scales, 85 mm and f/1 away, lamps of radiance 200 behind it",

@@ -34,15 +34,14 @@ void shade_by_sun(const Tracer &tracer, std::span<const Hit> hits, std::span<Ima
     const Imath::C3f &sky = tracer.scene().sky;
     const float sky_coverage = tracer.scene().sky_coverage;
     for (std::size_t i = 0; i < hits.size(); ++i)
-        out[i] = hits[i].sky()
-                     ? Imath::C4f(sky.x, sky.y, sky.z, sky_coverage)
-                     : lit(tracer.material(hits[i])(hits[i].position), std::abs(hits[i].normal ^ to_sun));
+        out[i] = hits[i].sky() ? Imath::C4f(sky.x, sky.y, sky.z, sky_coverage)
+                               : lit(tracer.paint(hits[i]), std::abs(hits[i].normal ^ to_sun));
 }
 
 void shade_by_albedo(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
     const Paint sky{tracer.scene().sky, tracer.scene().sky_coverage, true};
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Paint paint = hits[i].sky() ? sky : tracer.material(hits[i])(hits[i].position);
+        const Paint paint = hits[i].sky() ? sky : tracer.paint(hits[i]);
         out[i] = {std::min(paint.colour.x, 1.f), std::min(paint.colour.y, 1.f), std::min(paint.colour.z, 1.f),
                   paint.coverage};
     }
@@ -55,7 +54,7 @@ void shade_by_normal(const Tracer &tracer, std::span<const Hit> hits, std::span<
             continue;
         }
         const Imath::V3f normal(hits[i].normal);
-        out[i] = {normal.x, normal.y, normal.z, tracer.material(hits[i])(hits[i].position).coverage};
+        out[i] = {normal.x, normal.y, normal.z, tracer.paint(hits[i]).coverage};
     }
 }
 
@@ -66,7 +65,7 @@ Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
     const double side = (hit.normal ^ (target - hit.position)) < 0 ? -1 : 1;
     const double clearance = 1e-5 * (1 + hit.position.length()); // several ulp of Embree's floats
     const Imath::V3d origin = hit.position + side * clearance * hit.normal;
-    return {origin, target - origin};
+    return {origin, target - origin, hit.time};
 }
 
 // Irradiance from the light's point at the end of a shadow ray, as if it were the whole light: it falls with slant and
@@ -88,7 +87,7 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
     std::size_t count = 0;
     const Paint sky{tracer.scene().sky, tracer.scene().sky_coverage, true};
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        paints[i] = hits[i].sky() ? sky : tracer.material(hits[i])(hits[i].position);
+        paints[i] = hits[i].sky() ? sky : tracer.paint(hits[i]);
         out[i] = lit(paints[i], 0);
         if (paints[i].emits) continue;
         rays[count] = shadow_ray(hits[i], light_points[i]);
@@ -133,12 +132,12 @@ Ray through_glass(const Hit &hit, const Imath::V3d &in, double thickness) {
         (axis - (axis ^ inward) * inward) / refractive_index; // along the surface; length: sine of the angle
     const double cosine = std::sqrt(1 - along.length2());
     const Imath::V3d leaves = hit.position + thickness * (inward + along / cosine);
-    return {leaves + 1e-5 * (1 + leaves.length()) * in, in};
+    return {leaves + 1e-5 * (1 + leaves.length()) * in, in, hit.time};
 }
 
 Ray reflected(const Hit &hit, const Imath::V3d &in, double rough, const Imath::V2d &point) {
     const Imath::V3d direction = scattered(in - 2 * (in ^ hit.normal) * hit.normal, rough, point);
-    return {hit.position + 1e-5 * (1 + hit.position.length()) * direction, direction};
+    return {hit.position + 1e-5 * (1 + hit.position.length()) * direction, direction, hit.time};
 }
 
 // One bounce: a mirror seen in a mirror shows its own colour.
@@ -146,7 +145,7 @@ void add_bounces(const Tracer &tracer, Light light, std::span<const Ray> rays, s
                  std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (hits[i].sky()) continue;
-        const Paint paint = tracer.material(hits[i])(hits[i].position);
+        const Paint paint = tracer.paint(hits[i]);
         const float share = paint.mirror;
         if (share <= 0) continue;
         const Ray goes_on = paint.glass > 0
@@ -214,7 +213,7 @@ double visible_depth(const Tracer &tracer, const Ray &ray) {
     tracer.all(ray, hits);
     double passes = 1;
     for (const Hit &hit : hits) {
-        passes *= 1 - double(tracer.material(hit)(hit.position).coverage);
+        passes *= 1 - double(tracer.paint(hit).coverage);
         if (passes <= 0.5) return hit.t;
     }
     return std::numeric_limits<double>::infinity();

@@ -1,219 +1,92 @@
 #include "lab/trace/tracer.h"
 
-#include "base/error.h"
-#include "lab/trace/embree.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
 
 namespace sparselens::lab {
 
 namespace {
 
-constexpr std::size_t packet_size = 16;
+constexpr std::size_t run_size = 64; // rays moved at a time
 
-struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, Release>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, Release>;
-
-// The plane of a quad, or the sphere, from which the exact hit is computed.
-struct Shape {
-    Imath::V3d point;  // a corner; the centre
-    Imath::V3d normal; // of the quad
-    double radius;     // 0: a quad
-    Material material;
-};
-
-Shape shape_of(const Quad &quad) {
-    const auto &c = quad.corners;
-    return {c[0], ((c[2] - c[0]) % (c[3] - c[1])).normalized(), 0, quad.material};
+// The ray as the body sees it at rest. Its parameter t stays the same.
+Ray seen_at_rest(const Motion &motion, const Ray &ray) {
+    const Placement placement(motion, ray.time);
+    return {placement.point_at_rest(ray.origin), placement.direction_at_rest(ray.direction), ray.time};
 }
 
-// The hit of a ray that Embree says meets the shape; t = inf if that was only rounding.
-Hit solve(const Shape &shape, int primitive, const Ray &ray) {
-    Hit hit;
-    hit.primitive = primitive;
-    const Imath::V3d to_shape = shape.point - ray.origin;
-    if (shape.radius == 0) {
-        hit.t = (to_shape ^ shape.normal) / (ray.direction ^ shape.normal);
-        hit.position = ray.origin + hit.t * ray.direction;
-        hit.normal = shape.normal;
-        return hit;
-    }
-    // Solved from the point of the ray nearest to the centre, which avoids a difference of large squares.
-    const double inverse_length2 = 1 / ray.direction.length2();
-    const double t_middle = (to_shape ^ ray.direction) * inverse_length2;
-    const double distance2 = (to_shape - t_middle * ray.direction).length2();
-    const double half_chord2 = std::max(0.0, shape.radius * shape.radius - distance2);
-    const double side =
-        to_shape.length2() < shape.radius * shape.radius ? -1 : 1; // if the ray starts inside: -1, outside: 1
-    hit.t = t_middle - side * std::sqrt(half_chord2 * inverse_length2);
-    hit.position = ray.origin + hit.t * ray.direction;
-    hit.normal = (hit.position - shape.point) * (side / shape.radius);
-    return hit;
-}
-
-void add_quads(RTCDevice device, RTCScene scene, const std::vector<Quad> &quads) {
-    if (quads.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    auto *corners = static_cast<float *>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * quads.size()));
-    auto *indices = static_cast<unsigned *>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), quads.size()));
-    for (const Quad &quad : quads)
-        for (const Imath::V3d &corner : quad.corners)
-            for (int axis = 0; axis < 3; ++axis) *corners++ = float(corner[axis]);
-    for (unsigned i = 0; i < 4 * quads.size(); ++i) indices[i] = i;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, 0);
-    rtcReleaseGeometry(geometry);
-}
-
-void add_spheres(RTCDevice device, RTCScene scene, const std::vector<Sphere> &spheres) {
-    if (spheres.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    auto *values = static_cast<float *>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.size()));
-    for (const Sphere &sphere : spheres) {
-        for (int axis = 0; axis < 3; ++axis) *values++ = float(sphere.centre[axis]);
-        *values++ = float(sphere.radius);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, 1);
-    rtcReleaseGeometry(geometry);
-}
-
-// `valid` disables lanes past the end of `rays`.
-template <typename RayN>
-void load(std::span<const Ray> rays, float reach, RayN &packet, int *valid) {
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        valid[i] = i < rays.size() ? -1 : 0;
-        const Ray &ray = rays[i < rays.size() ? i : 0];
-        packet.org_x[i] = float(ray.origin.x);
-        packet.org_y[i] = float(ray.origin.y);
-        packet.org_z[i] = float(ray.origin.z);
-        packet.dir_x[i] = float(ray.direction.x);
-        packet.dir_y[i] = float(ray.direction.y);
-        packet.dir_z[i] = float(ray.direction.z);
-        packet.tnear[i] = 0;
-        packet.tfar[i] = reach;
-        packet.time[i] = 0;
-        packet.mask[i] = ~0u;
-        packet.id[i] = unsigned(i);
-        packet.flags[i] = 0;
+// Calls visit(some rays as the body sees them, index of the first) for all rays.
+template <typename Visit>
+void for_runs(const Motion &motion, std::span<const Ray> rays, const Visit &visit) {
+    std::array<Ray, run_size> moved;
+    for (std::size_t first = 0; first < rays.size(); first += run_size) {
+        const auto some = rays.subspan(first, std::min(run_size, rays.size() - first));
+        std::ranges::transform(some, moved.begin(),
+                               [&](const Ray &ray) { return seen_at_rest(motion, ray); });
+        visit(std::span<const Ray>(moved).first(some.size()), first);
     }
 }
 
-struct CollectContext {
-    QueryContext embree; // first, so that the filter finds the rest behind it
-    const std::vector<Shape> *shapes;
-    unsigned quads;
-    const Ray *ray;
-    std::vector<Hit> *hits;
-};
-
-// Records the hit and rejects it, so that the search continues.
-void collect(const RTCFilterFunctionNArguments *args) {
-    auto &context = *reinterpret_cast<CollectContext *>(args->context);
-    const unsigned geometry = RTCHitN_geomID(args->hit, args->N, 0);
-    const unsigned primitive = RTCHitN_primID(args->hit, args->N, 0) + (geometry == 0 ? 0 : context.quads);
-    context.hits->push_back(solve((*context.shapes)[primitive], int(primitive), *context.ray));
-    args->valid[0] = 0;
+// A hit on a body at rest becomes that on the moved body.
+void move(Hit &hit, const Motion &motion, int first) {
+    const Placement placement(motion, hit.time);
+    hit.primitive += first;
+    hit.position = placement.point(hit.at_rest);
+    hit.normal = placement.direction(hit.normal);
 }
 
 } // namespace
 
-struct Tracer::Impl {
-    Scene scene;
-    std::vector<Shape> shapes; // quads, then spheres
-    Device device;
-    EmbreeScene embree;
-};
-
-Tracer::Tracer(const Scene &scene) : impl_(std::make_unique<Impl>()) {
-    impl_->scene = scene;
-    for (const Quad &quad : scene.quads) impl_->shapes.push_back(shape_of(quad));
-    for (const Sphere &sphere : scene.spheres)
-        impl_->shapes.push_back({sphere.centre, {}, sphere.radius, sphere.material});
-    impl_->device.reset(rtcNewDevice(nullptr));
-    if (!impl_->device)
-        throw Error(fmt::format("Embree cannot be started: error {}", int(rtcGetDeviceError(nullptr))));
-    impl_->embree.reset(rtcNewScene(impl_->device.get()));
-    rtcSetSceneFlags(impl_->embree.get(), RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | filtered_scene));
-    add_quads(impl_->device.get(), impl_->embree.get(), scene.quads);
-    add_spheres(impl_->device.get(), impl_->embree.get(), scene.spheres);
-    rtcCommitScene(impl_->embree.get());
-    const RTCError error = rtcGetDeviceError(impl_->device.get());
-    if (error != RTC_ERROR_NONE) throw Error(fmt::format("Embree refuses the scene: error {}", int(error)));
+Tracer::Tracer(const Scene &scene) : scene_(scene) {
+    bodies_.push_back({RigidShapes(scene.quads, scene.spheres), {}, 0});
+    for (const MovingBody &body : scene.bodies)
+        bodies_.push_back({RigidShapes(body.quads, body.spheres), body.motion,
+                           bodies_.back().first + bodies_.back().shapes.count()});
 }
 
-Tracer::~Tracer() = default;
-Tracer::Tracer(Tracer &&) noexcept = default;
-Tracer &Tracer::operator=(Tracer &&) noexcept = default;
+const Tracer::Body &Tracer::body_of(int primitive) const {
+    return *std::ranges::find_if(bodies_.rbegin(), bodies_.rend(),
+                                 [&](const Body &body) { return body.first <= primitive; });
+}
 
-const Scene &Tracer::scene() const { return impl_->scene; }
-
-Material Tracer::material(const Hit &hit) const { return impl_->shapes[std::size_t(hit.primitive)].material; }
+Paint Tracer::paint(const Hit &hit) const {
+    const Body &body = body_of(hit.primitive);
+    return body.shapes.material(hit.primitive - body.first)(hit.at_rest);
+}
 
 void Tracer::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
-    const unsigned quads = unsigned(impl_->scene.quads.size());
-    for (std::size_t first = 0; first < rays.size(); first += packet_size) {
-        const auto some = rays.subspan(first, std::min(packet_size, rays.size() - first));
-        alignas(64) int valid[packet_size];
-        RTCRayHit16 packet;
-        load(some, std::numeric_limits<float>::infinity(), packet.ray, valid);
-        for (unsigned &id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
-        for (unsigned &id : packet.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
-        intersect_coherent(valid, impl_->embree.get(), packet);
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            const unsigned geometry = packet.hit.geomID[i];
-            if (geometry == RTC_INVALID_GEOMETRY_ID) {
-                hits[first + i] = Hit{};
-                continue;
+    bodies_[0].shapes.nearest(rays, hits);
+    std::array<Hit, run_size> found;
+    for (const Body &body : std::span(bodies_).subspan(1))
+        for_runs(body.motion, rays, [&](std::span<const Ray> some, std::size_t first) {
+            body.shapes.nearest(some, found);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                if (!(found[i].t < hits[first + i].t)) continue;
+                hits[first + i] = found[i];
+                move(hits[first + i], body.motion, body.first);
             }
-            const unsigned primitive = packet.hit.primID[i] + (geometry == 0 ? 0 : quads);
-            hits[first + i] = solve(impl_->shapes[primitive], int(primitive), some[i]);
-        }
-    }
+        });
 }
 
 void Tracer::blocked(std::span<const Ray> rays, std::span<bool> blocked) const {
-    for (std::size_t first = 0; first < rays.size(); first += packet_size) {
-        const auto some = rays.subspan(first, std::min(packet_size, rays.size() - first));
-        alignas(64) int valid[packet_size];
-        RTCRay16 packet;
-        load(some, 1, packet, valid);
-        find_occluded(valid, impl_->embree.get(), packet);
-        for (std::size_t i = 0; i < some.size(); ++i) blocked[first + i] = packet.tfar[i] < 0;
-    }
+    bodies_[0].shapes.blocked(rays, blocked);
+    std::array<bool, run_size> found;
+    for (const Body &body : std::span(bodies_).subspan(1))
+        for_runs(body.motion, rays, [&](std::span<const Ray> some, std::size_t first) {
+            body.shapes.blocked(some, found);
+            for (std::size_t i = 0; i < some.size(); ++i) blocked[first + i] = blocked[first + i] || found[i];
+        });
 }
 
 void Tracer::all(const Ray &ray, std::vector<Hit> &hits) const {
     hits.clear();
-    CollectContext context;
-    init_context(context.embree);
-    context.shapes = &impl_->shapes;
-    context.quads = unsigned(impl_->scene.quads.size());
-    context.ray = &ray;
-    context.hits = &hits;
-    RTCRayHit single{};
-    single.ray.org_x = float(ray.origin.x);
-    single.ray.org_y = float(ray.origin.y);
-    single.ray.org_z = float(ray.origin.z);
-    single.ray.dir_x = float(ray.direction.x);
-    single.ray.dir_y = float(ray.direction.y);
-    single.ray.dir_z = float(ray.direction.z);
-    single.ray.tfar = std::numeric_limits<float>::infinity();
-    single.ray.mask = ~0u;
-    single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect_filtered(impl_->embree.get(), context.embree, collect, single);
+    bodies_[0].shapes.add_all(ray, hits);
+    for (const Body &body : std::span(bodies_).subspan(1)) {
+        const std::size_t before = hits.size();
+        body.shapes.add_all(seen_at_rest(body.motion, ray), hits);
+        for (Hit &hit : std::span(hits).subspan(before)) move(hit, body.motion, body.first);
+    }
     std::sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
         return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
     });

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 
@@ -17,6 +18,7 @@ namespace sparselens::lab {
 namespace {
 
 constexpr int largest_side = 65536, largest_count = 1 << 20, largest_seed = 63;
+constexpr int most_moments = 64; // as in Blender's script
 constexpr double largest_dolly = 1e6;
 constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
 
@@ -134,6 +136,17 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
            "it (default: 0)")
         ->type_name("D")
         ->check(CLI::Range(-largest_dolly, largest_dolly));
+    app.add_flag(
+        "--motion-blur", options.motion_blur,
+        "Open the shutter: the reference and the views have motion blur, but depths are those of the "
+        "middle of its time");
+    app.add_option("--moments", options.moments,
+                   "Render the centre view and those of --views at N moments of the open shutter, without "
+                   "motion blur and each with 1/N of the samples: center_0.exr, view_0_0.exr, ..., "
+                   "center_1.exr, ... (default: views of the middle of its time)")
+        ->type_name("N")
+        ->check(CLI::Range(1, most_moments))
+        ->excludes("--plan");
     app.add_option("--seed", options.seed,
                    fmt::format("Seed of the random numbers; different seeds share no noise (default: {})",
                                options.seed))
@@ -186,32 +199,35 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
 }
 
 int view_samples(const TraceOptions &options) {
-    const int subpixels = options.supersample * options.supersample;
-    if (options.samples % subpixels != 0)
+    const int subpixels = options.supersample * options.supersample, moments = std::max(options.moments, 1);
+    if (options.samples % (subpixels * moments) != 0)
         throw UsageError(
-            fmt::format("--spp must be a multiple of {0}, as many as --supersample {1} makes of a "
-                        "pixel",
-                        subpixels, options.supersample));
-    return options.samples / subpixels;
+            fmt::format("--spp must be a multiple of {}: of the {} sub-pixels that --supersample "
+                        "makes of a pixel, at {} moments",
+                        subpixels * moments, subpixels, moments));
+    return options.samples / (subpixels * moments);
 }
 
-RenderSettings view_settings(const TraceOptions &options, const Camera &camera) {
+RenderSettings view_settings(const TraceOptions &options, const Camera &camera, const Motion &motion) {
     TraceOptions fine = options;
     const double pixels = double(options.width) * options.height * options.supersample * options.supersample;
     if (pixels > double(largest_picture))
         throw UsageError(
             fmt::format("--size and --supersample ask for more than {} pixels", largest_picture));
     for (int *length : {&fine.width, &fine.height, &fine.overscan}) *length *= options.supersample;
-    return render_settings(fine, camera);
+    RenderSettings settings = render_settings(fine, camera, motion);
+    if (options.moments > 0) settings.exposure = {};
+    return settings;
 }
 
-RenderSettings render_settings(const TraceOptions &options, const Camera &camera) {
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera, const Motion &motion) {
     RenderSettings settings{windows_of_size(options.width, options.height), {}, options.light};
     settings.windows.data.min -= Imath::V2i(options.overscan);
     settings.windows.data.max += Imath::V2i(options.overscan);
     if (settings.windows.pixels() > largest_picture)
         throw UsageError(fmt::format("--size and --overscan ask for more than {} pixels", largest_picture));
-    settings.dolly = options.dolly;
+    settings.camera = options.dolly == 0 ? motion : displaced(motion, {0, 0, options.dolly});
+    if (options.motion_blur || options.moments > 0) settings.exposure = whole_shutter;
     settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // for a pinhole too

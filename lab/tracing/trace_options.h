@@ -28,6 +28,8 @@ struct TraceOptions {
     int reference = 0;   // rays per pixel; 0: no reference
     int halves = 0;      // rays per pixel of both; 0: none
     int width = 640, height = 360;
+    bool motion_blur = false;
+    int moments = 0;  // of the shutter, each with its views; 0: views of a still
     int overscan = 0; // pixels
     double dolly = 0; // scene units
     int seed = 0;     // of the random numbers: different seeds share no noise
@@ -43,13 +45,13 @@ bool read_size(const std::string &text, TraceOptions &options);
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
 
-// The windows, the lens and the light of the picture, and of the views; `camera` is the scene's camera, changed by the
-// options. Throws UsageError if they are unreasonably large.
-RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
-RenderSettings view_settings(const TraceOptions &options, const Camera &camera);
+// The windows, the lens, the light, the camera's motion and the exposure of the picture, and of the views; `camera` is
+// the scene's camera, changed by the options. Throws UsageError if they are unreasonably large.
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera, const Motion &motion);
+RenderSettings view_settings(const TraceOptions &options, const Camera &camera, const Motion &motion);
 
-// Samples per pixel of a view. Throws UsageError if the samples of a picture's pixel cannot be divided among its
-// sub-pixels.
+// Samples per pixel of a view. Throws UsageError if the samples of a picture's pixel cannot be divided among the moments
+// and its sub-pixels.
 int view_samples(const TraceOptions &options);
 
 } // namespace sparselens::lab

@@ -44,11 +44,15 @@ TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings set
 }
 
 // Counts the pixels of this camera per pixel of the picture: finer pixels, more of them.
-Camera TraceOutputs::camera_of(const Windows &windows, const Imath::V2d &u) const {
-    Camera camera = camera_at(camera_, settings_.windows, settings_.lens.radius * u);
+Imf::Header TraceOutputs::header_of(const Windows &windows, const Viewpoint &from) const {
+    Camera camera = camera_at(camera_, settings_.windows, settings_.lens.radius * from.u,
+                              Placement(settings_.camera, from.time()));
     const int across = windows.display_width() / settings_.windows.display_width();
     if (across > 1) camera.supersample = across;
-    return camera;
+    Imf::Header header;
+    write_camera(header, camera);
+    if (from.moment) write_stated_moment(header, *from.moment);
+    return header;
 }
 
 void TraceOutputs::note(const std::string &name, double seconds) {
@@ -56,25 +60,23 @@ void TraceOutputs::note(const std::string &name, double seconds) {
     tool_.say(fmt::format("{}: {:.3f} s", path(name), seconds));
 }
 
-void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make,
+void TraceOutputs::add(const std::string &name, const Viewpoint &from, const std::function<Image()> &make,
                        std::optional<int> rays) {
     double seconds = 0;
     Image image = timed(make, seconds);
     set_colour_type(image.channels, type_);
-    Imf::Header header;
-    write_camera(header, camera_of(image.windows, u));
+    Imf::Header header = header_of(image.windows, from);
     if (rays) write_render_samples(header, *rays);
     write_flat_exr(path(name), image, header);
     note(name, seconds);
 }
 
-void TraceOutputs::add_deep(const std::string &name, const Imath::V2d &u, const std::function<Ldi()> &make) {
+void TraceOutputs::add_deep(const std::string &name, const Viewpoint &from,
+                            const std::function<Ldi()> &make) {
     double seconds = 0;
     Ldi ldi = timed(make, seconds);
     set_colour_type(ldi.channels, type_);
-    Imf::Header header;
-    write_camera(header, camera_of(ldi.windows, u));
-    write_ldi(path(name), ldi, header);
+    write_ldi(path(name), ldi, header_of(ldi.windows, from));
     note(name, seconds);
 }
 

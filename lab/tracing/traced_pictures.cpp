@@ -13,9 +13,10 @@ namespace sparselens::lab {
 
 namespace {
 
-// Streams of random numbers; the reference uses stream 0.
+// Streams of random numbers; the reference uses stream 0. Each moment of the shutter has streams of its own.
 enum Stream : std::uint32_t {
     of_centre = 1,
+    next_moment = 0x10000,
     of_deep = 0x1000000,
     of_rim = 0x2000000,
     of_lens = 0x3000000,
@@ -23,21 +24,14 @@ enum Stream : std::uint32_t {
 };
 
 void add_view(const TraceJob &job, const RenderSettings &settings, int samples, const std::string &name,
-              const Imath::V2d &u, std::uint32_t stream) {
-    job.outputs.add(name, u,
-                    [&] { return render_view(job.tracer, settings, u, samples, stream, job.progress); });
-}
-
-void add_views(const TraceJob &job, const RenderSettings &settings, int samples,
-               fmt::format_string<std::size_t &> format, const std::vector<Imath::V2d> &points,
-               std::uint32_t stream) {
-    for (std::size_t k = 0; k < points.size(); ++k)
-        add_view(job, settings, samples, fmt::format(format, k), points[k], stream + std::uint32_t(k));
+              const Viewpoint &from, std::uint32_t stream) {
+    job.outputs.add(name, from,
+                    [&] { return render_view(job.tracer, settings, from.u, samples, stream, job.progress); });
 }
 
 void add_reference(const TraceJob &job, const RenderSettings &settings, int rays, const std::string &name) {
     job.outputs.add(
-        name, {0, 0}, [&] { return render_reference(job.tracer, settings, rays, job.progress); }, rays);
+        name, {}, [&] { return render_reference(job.tracer, settings, rays, job.progress); }, rays);
 }
 
 // Views are averaged with equal weights, so only looks that change the aperture's shape appear.
@@ -68,7 +62,7 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const RequestedView &view = plan.views[k];
         settings.windows.data = view.window;
-        job.outputs.add(fmt::format("view_{}.exr", k), view.u, [&] {
+        job.outputs.add(fmt::format("view_{}.exr", k), {view.u}, [&] {
             const PixelMask mask = mask_of(view);
             return render_view(job.tracer, settings, view.u, job.view_samples, of_rim + std::uint32_t(k),
                                job.progress, mask.set);
@@ -78,18 +72,42 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     return points;
 }
 
+namespace {
+
+// The centre view and the rim views, with `ending` in their names.
+void add_all(const TraceJob &job, const RenderSettings &settings, const std::vector<Imath::V2d> &rim,
+             Viewpoint from, const std::string &ending, std::uint32_t stream) {
+    add_view(job, settings, job.view_samples, "center" + ending, from, stream + of_centre);
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+        from.u = rim[k];
+        add_view(job, settings, job.view_samples, fmt::format("view_{}{}", k, ending), from,
+                 stream + of_rim + std::uint32_t(k));
+    }
+}
+
+} // namespace
+
 std::vector<Imath::V2d> trace_rim(const TraceJob &job) {
     const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
-    add_view(job, job.view, job.view_samples, "center.exr", {0, 0}, of_centre);
-    add_views(job, job.view, job.view_samples, "view_{}.exr", rim, of_rim);
+    const int moments = job.options.moments;
+    if (moments == 0) add_all(job, job.view, rim, {}, ".exr", 0);
+    for (int moment = 0; moment < moments; ++moment) {
+        RenderSettings settings = job.view;
+        settings.exposure = moment_of(moment, moments);
+        settings.scattered = moments > 1; // on grids, all moments would have the same samples
+        add_all(job, settings, rim, {{0, 0}, StatedMoment{moment, moments}}, fmt::format("_{}.exr", moment),
+                std::uint32_t(moment) * next_moment);
+    }
     return rim;
 }
 
 void trace_lens(const TraceJob &job) {
     RenderSettings to_average = job.settings;
     to_average.scattered = true;
-    add_views(job, to_average, job.options.samples, "lens_{:04}.exr",
-              lens_view_points(job.settings.looks, job.options.lens_views), of_lens);
+    const std::vector<Imath::V2d> points = lens_view_points(job.settings.looks, job.options.lens_views);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        add_view(job, to_average, job.options.samples, fmt::format("lens_{:04}.exr", k), {points[k]},
+                 of_lens + std::uint32_t(k));
 }
 
 void trace_reference(const TraceJob &job) {
@@ -111,7 +129,7 @@ namespace {
 void trace_deep_views(const TraceJob &job) {
     const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
     for (std::size_t k = 0; k < rim.size(); ++k)
-        job.outputs.add_deep(fmt::format("deep_view_{}.exr", k), rim[k], [&] {
+        job.outputs.add_deep(fmt::format("deep_view_{}.exr", k), {rim[k]}, [&] {
             return render_visible(job.tracer, job.view, job.view_samples, of_deep + 1 + std::uint32_t(k),
                                   job.progress, rim[k]);
         });
@@ -123,18 +141,18 @@ void trace_deep(const TraceJob &job) {
     const int samples = job.view_samples;
     for (const auto &[kind, layers] : job.options.deep) switch (kind) {
         case DeepKind::visible:
-            job.outputs.add_deep("deep_visible.exr", {0, 0}, [&] {
+            job.outputs.add_deep("deep_visible.exr", {}, [&] {
                 return render_visible(job.tracer, job.view, samples, of_deep, job.progress);
             });
             break;
         case DeepKind::views: trace_deep_views(job); break;
         case DeepKind::peel:
-            job.outputs.add_deep("deep_peel.exr", {0, 0}, [&, layers = layers] {
+            job.outputs.add_deep("deep_peel.exr", {}, [&, layers = layers] {
                 return render_peeled(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
             break;
         case DeepKind::strata:
-            job.outputs.add_deep("deep_strata.exr", {0, 0}, [&, layers = layers] {
+            job.outputs.add_deep("deep_strata.exr", {}, [&, layers = layers] {
                 return render_strata(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
         }

@@ -24,7 +24,8 @@ struct TraceJob {
 // was made for a picture of another size.
 std::vector<Imath::V2d> trace_plan(const TraceJob &job);
 
-// Renders the centre view and --views views from the rim of the lens, and returns the lens points of the latter.
+// Renders the centre view and --views views from the rim of the lens, at each of --moments, and returns the lens points
+// of the latter.
 std::vector<Imath::V2d> trace_rim(const TraceJob &job);
 
 // Renders --lens-views views from the whole lens.

@@ -97,6 +97,11 @@ std::optional<StatedMoment> stated_moment(const Imf::Header &header) {
     return StatedMoment{moment->value(), moments->value()};
 }
 
+void write_stated_moment(Imf::Header &header, const StatedMoment &moment) {
+    header.insert(moment_name, Imf::IntAttribute(moment.moment));
+    header.insert(moments_name, Imf::IntAttribute(moment.moments));
+}
+
 Imf::Header without_stated_moment(const Imf::Header &header) {
     return without_attribute(without_attribute(header, moment_name), moments_name);
 }

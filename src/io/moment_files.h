@@ -30,6 +30,7 @@ struct StatedMoment {
     int moment, moments;
 };
 std::optional<StatedMoment> stated_moment(const Imf::Header &header);
+void write_stated_moment(Imf::Header &header, const StatedMoment &moment);
 Imf::Header without_stated_moment(const Imf::Header &header);
 
 } // namespace sparselens

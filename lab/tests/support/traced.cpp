@@ -13,6 +13,7 @@ SceneCamera::SceneCamera(std::string_view name, int width, int height) : tracer(
     settings.lens.radius = *camera.focal_length_mm / 1000 / (2 * *camera.fstop) / *camera.metres_per_unit;
     settings.lens.focal_px = *focal_length_px(camera, width);
     settings.lens.focus = *camera.focus_distance;
+    settings.camera = tracer.scene().camera_motion;
 }
 
 SceneCamera::SceneCamera(const Scene &scene, const ThinLens &lens, int width, int height)

@@ -10,7 +10,7 @@ header() { grep -q -e "$2" <<<"$(exrheader "$1")" || fail "$1 has no '$2': $(exr
 
 # Every scene gives the requested files, and no others.
 for scene in fence grass planes slant lamps mirror mist element macro \
-    plane-mirror brushed-mirror glass-slab curved-mirrors glossy-floor; do
+    plane-mirror brushed-mirror glass-slab curved-mirrors glossy-floor fair; do
     exits 0 "$trace" $scene -o "$scene" "${small[@]}" --lens-views 2 --reference 3 --deep peel:3 --deep strata:3 --deep visible
     [ "$(ls -A "$scene" | tr '\n' ' ')" = "camera.json center.exr deep_peel.exr deep_strata.exr deep_visible.exr lens_0000.exr \
 lens_0001.exr reference.exr view_0.exr view_1.exr " ] || fail "$scene: $(ls -A "$scene")"
@@ -120,6 +120,31 @@ for lens in '--lens-radius 0' '--fstop inf'; do
     same still/center.exr still/view_0.exr "$lens"
     same still/center.exr still/view_1.exr "$lens"
     grep -q '"fstop": null' still/camera.json || fail "$lens: $(cat still/camera.json)"
+done
+
+# The shutter: pictures with motion blur, or views of its moments, whose files state the moment and the camera then.
+exits 0 "$trace" fair -o open "${small[@]}" --reference 3 --motion-blur
+exits 0 "$trace" fair -o moments "${small[@]}" --reference 3 --moments 2
+[ "$(ls moments | tr '\n' ' ')" = "camera.json center_0.exr center_1.exr reference.exr view_0_0.exr view_0_1.exr \
+view_1_0.exr view_1_1.exr " ] || fail "--moments: $(ls moments)"
+differ fair/reference.exr open/reference.exr "--motion-blur"
+differ fair/center.exr open/center.exr "views with --motion-blur"
+same open/reference.exr moments/reference.exr "--moments, and --motion-blur"
+for k in 0 1; do
+    header moments/center_$k.exr "sparselens:moment (type int): $k"
+    header moments/view_1_$k.exr 'sparselens:moments (type int): 2'
+done
+header moments/center_0.exr '^ *0.999987 0 -0.00499998 0$' # the camera pans
+header moments/center_1.exr '^ *0.999987 0 0.00499998 0$'
+exits 0 "$bin/ldi-warp" moments/center_%s.exr moments/view_0_%s.exr moments/view_1_%s.exr -o moments/ldi_%s.exr
+exits 0 "$bin/dof-gather" moments/ldi_%s.exr -o moments/picture.exr
+exits 0 "$trace" fence -o unmoved "${small[@]}" --reference 3 --motion-blur
+for file in center view_1 reference; do same fence/$file.exr unmoved/$file.exr "--motion-blur where nothing moves"; done
+exits 0 "$trace" fence -o nearer "${small[@]}" --dolly 0.1
+header nearer/center.exr '^ *0 0 -0.1 1'
+for wrong in '--moments 0' '--moments 65' '--moments 3' '--moments 2 --plan p.json'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 '--moments|--spp' "$trace" fair -o x "${small[@]}" $wrong
 done
 
 # Two halves for dof-finish have independent noise, of each other and of the reference, and state their number of rays.

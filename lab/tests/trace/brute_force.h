@@ -34,11 +34,26 @@ struct SlowHit {
     int primitive;
 };
 
+// The body where it stands at that time: it moves, not the ray.
+inline MovingBody placed(MovingBody body, double time) {
+    const Placement placement(body.motion, time);
+    for (Quad &quad : body.quads)
+        for (Imath::V3d &corner : quad.corners) corner = placement.point(corner);
+    for (Sphere &sphere : body.spheres) sphere.centre = placement.point(sphere.centre);
+    return body;
+}
+
 inline std::vector<SlowHit> all_hits(const Scene &scene, const Ray &ray) {
     std::vector<SlowHit> hits;
-    const auto add = [&](double t) { hits.push_back({t, int(hits.size())}); };
-    for (const Quad &quad : scene.quads) add(quad_hit(quad, ray));
-    for (const Sphere &sphere : scene.spheres) add(sphere_hit(sphere, ray));
+    const auto add = [&](const std::vector<Quad> &quads, const std::vector<Sphere> &spheres) {
+        for (const Quad &quad : quads) hits.push_back({quad_hit(quad, ray), int(hits.size())});
+        for (const Sphere &sphere : spheres) hits.push_back({sphere_hit(sphere, ray), int(hits.size())});
+    };
+    add(scene.quads, scene.spheres);
+    for (const MovingBody &body : scene.bodies) {
+        const MovingBody there = placed(body, ray.time);
+        add(there.quads, there.spheres);
+    }
     std::erase_if(hits, [](const SlowHit &hit) { return std::isinf(hit.t); });
     std::sort(hits.begin(), hits.end(), [](const SlowHit &a, const SlowHit &b) { return a.t < b.t; });
     return hits;

@@ -30,7 +30,7 @@ void expect_to_meet(const LensLooks &looks, double x, double y, double z, std::s
     const Imath::V2d p(48 + x, 32 - y);
     const Imath::V3d expected(x / 640 * z, y / 640 * z, z);
     for (const Imath::V2d &u : points) {
-        const Ray ray = rays.ray(u, p, rays.inverse_focus(p, colour));
+        const Ray ray = rays.ray(u, p, rays.inverse_focus(p, colour), 0.5);
         EXPECT_LT((at_depth(ray, z) - expected).length(), 1e-12) << "x " << x << ", y " << y << ", u " << u;
     }
 }

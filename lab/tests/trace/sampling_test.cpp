@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 namespace sparselens::lab {
@@ -35,6 +37,24 @@ TEST(Sampling, LensPairIsANet) {
         for (const Imath::V2d &v : p) cells.insert(int(v.x * (1 << k)) * 256 + int(v.y * (256 >> k)));
         EXPECT_EQ(cells.size(), 256u) << k;
     }
+}
+
+// Each eighth of the shutter's time has points in all quarters of the lens, as evenly as their number allows.
+TEST(Sampling, TimesAndLensPointsAreSpreadTogether) {
+    const PixelSamples samples(256, false, 3);
+    std::vector<Imath::V2d> lens(256);
+    std::vector<double> time(256);
+    samples.on_lens(4, 5, 0, lens);
+    samples.in_time(whole_shutter, 4, 5, 0, time);
+    std::array<int, 32> cells{};
+    for (std::size_t i = 0; i < 256; ++i)
+        ++cells[std::size_t(int(time[i] * 8) * 4 + int(lens[i].x * 2) * 2 + int(lens[i].y * 2))];
+    for (const int count : cells) EXPECT_NEAR(count, 8, 1);
+    samples.in_time({0.25, 0.5}, 4, 5, 0, time);
+    EXPECT_NEAR(*std::ranges::min_element(time), 0.25, 0.001);
+    EXPECT_NEAR(*std::ranges::max_element(time), 0.5, 0.001);
+    samples.in_time(moment_of(3, 4), 4, 5, 0, time);
+    for (const double t : time) EXPECT_EQ(t, 0.875);
 }
 
 TEST(Sampling, AnyPartCanBeAskedFor) {

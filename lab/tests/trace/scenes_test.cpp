@@ -18,15 +18,18 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
             << entry.name;
     }
     EXPECT_EQ(names, (std::set<std::string>{"brushed-mirror", "curved-mirrors", "element", "element-in-plate",
-                                            "fence", "glass-slab", "glossy-floor", "grass", "lamps", "macro",
-                                            "mirror", "mist", "plane-mirror", "planes", "plate", "scales",
-                                            "slant"}));
+                                            "fair", "fence", "glass-slab", "glossy-floor", "grass", "lamps",
+                                            "macro", "mirror", "mist", "plane-mirror", "planes", "plate",
+                                            "scales", "slant"}));
 }
 
 // Quads are planar, with corners in order, and convex, as the tracer requires.
 TEST(Scenes, QuadsAreSound) {
-    for (const SceneEntry &entry : scene_table())
-        for (const Quad &quad : entry.build().quads) {
+    for (const SceneEntry &entry : scene_table()) {
+        Scene scene = entry.build();
+        for (const MovingBody &body : scene.bodies)
+            scene.quads.insert(scene.quads.end(), body.quads.begin(), body.quads.end());
+        for (const Quad &quad : scene.quads) {
             const auto &c = quad.corners;
             const Imath::V3d normal = ((c[2] - c[0]) % (c[3] - c[1])).normalized();
             for (std::size_t i = 0; i < 4; ++i) {
@@ -35,6 +38,25 @@ TEST(Scenes, QuadsAreSound) {
                     << entry.name;
             }
         }
+    }
+}
+
+// At 320x180, where the focal length has 320 pixels.
+TEST(Scenes, FairMovesByPixels) {
+    const Scene scene = build_scene("fair");
+    ASSERT_EQ(scene.bodies.size(), 3u);
+    const auto moved = [](const MovingBody &body, const Imath::V3d &point) {
+        const Imath::V3d from = Placement(body.motion, 0).point(point),
+                         to = Placement(body.motion, 1).point(point);
+        return 320 * (from / from.z - to / to.z).length();
+    };
+    for (const MovingBody &body : scene.bodies) {
+        EXPECT_TRUE(body.motion.moves());
+        const Imath::V3d point = body.spheres.back().centre;
+        EXPECT_GT(moved(body, point), 14);
+        EXPECT_LT(moved(body, point), 19);
+    }
+    EXPECT_NEAR(320 * std::tan(scene.camera_motion.turn), 6.4, 0.1);
 }
 
 TEST(Scenes, FenceIsAsWritten) {
