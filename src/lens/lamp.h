@@ -40,4 +40,28 @@ inline float surroundings_of(std::span<float> brightness, std::size_t one_in) {
     return *level;
 }
 
+struct CoveredLight {
+    float brightness, covers;
+};
+
+// The same, if each sample counts by what it covers: many thin layers in front of a surface do not outvote it.
+inline float surroundings_of(std::span<CoveredLight> light, std::size_t one_in) {
+    double all = 0, brighter = 0; // what is covered: by all, and by those that are too bright
+    for (const CoveredLight &l : light) all += double(l.covers);
+    while (light.size() > 1) {
+        const std::size_t half = light.size() / 2;
+        std::nth_element(light.begin(), light.begin() + std::ptrdiff_t(half), light.end(),
+                         [](const auto &a, const auto &b) { return a.brightness < b.brightness; });
+        double upper = brighter;
+        for (const CoveredLight &l : light.subspan(half)) upper += double(l.covers);
+        if (double(one_in) * upper > all) {
+            light = light.subspan(half);
+        } else {
+            brighter = upper;
+            light = light.first(half);
+        }
+    }
+    return light.empty() ? 0 : light[0].brightness;
+}
+
 } // namespace sparselens

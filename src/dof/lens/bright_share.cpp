@@ -23,7 +23,7 @@ int BrightShare::octave_of(float brightness) {
 BrightShare::BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t)> &brightness)
     : samples_(samples), corners_(pieces_of(samples.columns, cell) + 1, pieces_of(samples.rows, cell) + 1),
       below_(octaves * corners_.size()) {
-    const auto at = [&](int octave, int x, int y) -> std::uint32_t & {
+    const auto at = [&](int octave, int x, int y) -> double & {
         return below_[std::size_t(octave) * corners_.size() + corners_.index(x, y)];
     };
     parallel_for(std::size_t(corners_.height() - 1), [&](std::size_t row) {
@@ -31,7 +31,8 @@ BrightShare::BrightShare(const BlockedSamples &samples, const std::function<floa
                           last = std::min(first + cell * columns, samples.blocks.size());
         for (std::size_t b = first; b < last; ++b)
             for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i)
-                ++at(octave_of(brightness(i)), int(b % columns) / cell + 1, int(row) + 1);
+                at(octave_of(brightness(i)), int(b % columns) / cell + 1, int(row) + 1) +=
+                    double(counts_as(samples, i));
     });
     for (int octave = octaves - 2; octave >= 0; --octave)
         for (std::size_t i = 0; i < corners_.size(); ++i)
@@ -51,8 +52,7 @@ double BrightShare::count(int octave, const std::array<double, 4> &box) const {
                   row = std::min(int(y), corners_.height() - 2);
         const double right = x - column, down = y - row;
         const auto at = [&](int i, int j) {
-            return double(
-                below_[std::size_t(octave) * corners_.size() + corners_.index(column + i, row + j)]);
+            return below_[std::size_t(octave) * corners_.size() + corners_.index(column + i, row + j)];
         };
         return (1 - down) * ((1 - right) * at(0, 0) + right * at(1, 0)) +
                down * ((1 - right) * at(0, 1) + right * at(1, 1));
@@ -72,7 +72,7 @@ double BrightShare::around(std::uint32_t sample, float brightness) const {
     const double octave =
         std::clamp(std::log2(double(std::max(brightness, 1e-30f))) - half + octaves / 2, 0.0, octaves - 1.0);
     const int whole = int(octave), next = std::min(whole + 1, octaves - 1);
-    return std::min(std::lerp(count(whole, box), count(next, box), octave - whole) / all, 1.0);
+    return std::clamp(std::lerp(count(whole, box), count(next, box), octave - whole) / all, 0.0, 1.0);
 }
 
 } // namespace sparselens

@@ -15,6 +15,12 @@
 
 namespace sparselens {
 
+// How much a sample counts among those around it: by what it covers, so that many thin layers do not outvote the
+// surface behind them. Light without coverage counts wholly.
+inline float counts_as(const BlockedSamples &samples, std::uint32_t sample) {
+    return samples.alpha[sample] > 0 ? samples.alpha[sample] : 1;
+}
+
 class BrightShare {
 public:
     static constexpr int cell = 4; // blocks wide and high, like the cells of highlights.cpp
@@ -33,9 +39,9 @@ private:
 
     const BlockedSamples &samples_;
     Grid corners_; // of cells
-    // [octave][corner]: the number of samples to the left of the corner and above it that are of this octave or
+    // [octave][corner]: what the samples to the left of the corner and above it count that are of this octave or
     // brighter
-    std::vector<std::uint32_t> below_;
+    std::vector<double> below_;
 };
 
 } // namespace sparselens

@@ -28,7 +28,7 @@ struct Highlights {
 
 // Finds the highlights of a picture, and takes the light that they spread out of `colours`. A sample is a highlight if
 // the brightest of its `brightness` channels is more than four times the level that four of five samples around it stay
-// below, which bounds the cost. The level is that of the darkest of four windows of 64 x 64 pixels that overlap at the
+// below, counted by what they cover, which bounds the cost. The level is that of the darkest of four windows of 64 x 64 pixels that overlap at the
 // sample. A window counts the samples in `seen` (pixels relative to the data window's corner), and pixels beyond that
 // let light through, because what else lies beyond is made up; if it has none of these, it counts all its samples. A
 // made-up sample must stand out of all samples of its windows, too, so that at most a fifth of these are highlights.

@@ -1,6 +1,7 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_gather.h"
+#include "lens/lamp.h"
 #include "lens/lamp_spread.h"
 #include "lens/psf.h"
 #include "support/lens_ldi.h"
@@ -12,6 +13,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -57,6 +59,48 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
         for (std::size_t i = 0; i < blocked.samples.count(); ++i)
             for (std::size_t k = 0; k < 4 && i != lamp; ++k)
                 ASSERT_EQ(blocked.colours.at(k, i), before.at(k, i));
+    }
+}
+
+TEST(TakeHighlights, ThinLayersDoNotOutvoteTheSurfaceBehindThem) {
+    const auto behind_layers = [](int layers) {
+        return make_ldi(windows_of_size(64, 64), rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            for (int n = 0; n < layers; ++n) {
+                const float covers = 0.5f / float(layers);
+                samples.push_back({depth_of(wide, -9 + 8.0 * n / layers), {covers / 10, 0, 0, covers}});
+            }
+            const float v = (x == 11 && y == 40 ? 60.0f : 0.0f) + float(0.5 + 0.5 * random_unit(x, y, 1));
+            samples.push_back({depth_of(wide, 9), {v, v, v, 1}});
+            return samples;
+        });
+    };
+    for (const int layers : {1, 20}) {
+        const Ldi ldi = behind_layers(layers);
+        Blocked blocked(ldi, wide);
+        const Highlights highlights = blocked.take();
+        ASSERT_EQ(highlights.sample.size(), 1u) << layers;
+        EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 11.5f);
+    }
+}
+
+// A sample that covers n times as much counts like n samples.
+TEST(Surroundings, CountByWhatIsCovered) {
+    for (const int count : {0, 1, 2, 5, 10, 11, 64}) {
+        std::vector<CoveredLight> covered, one_each;
+        std::vector<float> each;
+        for (int i = 0; i < count; ++i) {
+            const auto brightness = float(random_unit(i, count, 1));
+            const int times = 1 + int(3 * random_unit(i, count, 2));
+            covered.push_back({brightness, float(times) / 4});
+            for (int n = 0; n < times; ++n) {
+                each.push_back(brightness);
+                one_each.push_back({brightness, 1});
+            }
+        }
+        const float expected = surroundings_of(std::span(each), 5);
+        EXPECT_EQ(surroundings_of(std::span(covered), 5), expected) << count;
+        EXPECT_EQ(surroundings_of(std::span(one_each), 5), expected) << count;
     }
 }
 
