@@ -10,7 +10,7 @@ import sys
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from state import state  # noqa: E402
+from state import changes, state  # noqa: E402
 
 
 class Recorder:
@@ -71,11 +71,10 @@ def main(path, folder, overscan=""):
     before = state(scene)
     if bpy.ops.sparselens.render_views() != {"FINISHED"}:
         sys.exit("the add-on rendered nothing")
-    after = state(scene)
-    changes = [key for key in before if before[key] != after.get(key)]
+    found = changes(before, state(scene))
     addon.unregister()
-    if changes or set(before) != set(after):
-        sys.exit("changed: %s" % [(key, before[key], after.get(key)) for key in changes])
+    if found:
+        sys.exit("changed: %s" % found[:20])
 
 
 main(*sys.argv[sys.argv.index("--") + 1:])

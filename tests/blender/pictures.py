@@ -7,8 +7,8 @@
         a little apart, if it is not there; scene NAME: shows this scene, which is made with its own camera and folder;
         reload FILE.blend: saves the file under this name, and opens it; move: moves the camera; refuse PATTERN: taking
         the picture gives this error, on one line; refuse-finish, refuse-render PATTERN: finishing and rendering do; stop: begins a render and a
-        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME:
-        makes frames 1 and 2;
+        picture, and stops both; follow D WIDTH: takes the picture, and lets it follow a new focus distance by a draft
+        of this width; animate NAME: makes frames 1 and 2;
         compose FILE.exr: writes the output of the node group;
         set NAME=VALUE: sets a field of the panel, such as views=3 or lens_looks.cat_eye=0.5, or keys it:
         NAME=VALUE@FRAME; save FILE.blend
@@ -16,13 +16,14 @@
 
 import os
 import re
+import struct
 import sys
 import time
 
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from state import state  # noqa: E402
+from state import changes, state  # noqa: E402
 
 
 def check(true, text):
@@ -37,10 +38,8 @@ class Unchanged:
         self.before = state(bpy.context.scene)
 
     def __exit__(self, *error):
-        after = state(bpy.context.scene)
-        changes = [(key, self.before.get(key), after.get(key)) for key in set(self.before) | set(after)
-                   if self.before.get(key) != after.get(key)]
-        check(not changes, "changed: %s" % changes)
+        found = changes(self.before, state(bpy.context.scene))
+        check(not found, "changed: %s" % found[:20])
 
 
 def said_by(operator):
@@ -79,7 +78,10 @@ def finish():
     check(image_of().filepath.endswith("picture.exr"), "the image shows %s" % image_of().filepath)
 
 
-def refuse(pattern, operator="take_picture"):
+REFUSERS = {"refuse": "take_picture", "refuse-finish": "finish", "refuse-render": "render_views"}
+
+
+def refuse(pattern, operator):
     said = said_by(getattr(bpy.ops.sparselens, operator))
     check(re.fullmatch("Error: [^\n]*%s[^\n]*\n?" % pattern, said), "not '%s': %s" % (pattern, said))
 
@@ -138,15 +140,16 @@ def stop(addon):
     check(sorted(os.listdir(scene.sparselens.folder)) == files, "left are %s" % os.listdir(scene.sparselens.folder))
 
 
-def follow(addon, distance):
+def follow(addon, distance, width):
     """Does by hand what Blender's timer does."""
     scene = bpy.context.scene
     take()
+    made = os.path.join(scene.sparselens.folder, "picture.exr")
     follower = addon.taking.Follower(addon.taking.lens_state(scene))
     follower.tick(scene)
     check(follower.taking is None, "an unchanged lens takes a picture")
     scene.camera.data.dof.focus_distance = float(distance)
-    shown, began = [], time.time()
+    shown, began, drafted = [], time.time(), 0
     while follower.taking or not shown:
         check(time.time() - began < 100 and ": warning: " in (follower.message or ": warning: "),
               "following: %s" % follower.message)
@@ -154,10 +157,12 @@ def follow(addon, distance):
         path = image_of().filepath
         if path not in shown[-1:]:
             shown.append(path)
+        if path != made:
+            drafted = struct.unpack("<4i", addon.kept.header_of(path)["displayWindow"][1])[2] + 1
         time.sleep(0.01)
-    names = [os.path.dirname(path) == scene.sparselens.folder for path in shown]
-    check(names[-2:] == [False, True], "a draft and then the picture: %s" % shown)
+    check([path == made for path in shown[-2:]] == [False, True], "a draft and then the picture: %s" % shown)
     check(tuple(image_of().size) == (96, 54), "the picture's size: %s" % str(tuple(image_of().size)))
+    check(drafted == int(width), "the draft is %d pixels wide, not %s" % (drafted, width))
 
 
 def compose(path):
@@ -229,19 +234,15 @@ def main(folder, views, *actions):
             compose(actions.pop(0))
         elif action == "finish":
             finish()
-        elif action == "refuse":
-            refuse(actions.pop(0))
-        elif action == "refuse-finish":
-            refuse(actions.pop(0), "finish")
-        elif action == "refuse-render":
-            refuse(actions.pop(0), "render_views")
+        elif action in REFUSERS:
+            refuse(actions.pop(0), REFUSERS[action])
         elif action == "stop":
             stop(addon)
         elif action == "animate":  # into this file, without an ending
             scene.render.filepath, scene.frame_end = actions.pop(0), 2
             check(said_by(bpy.ops.sparselens.render_animation) == "", "no animation")
         elif action == "follow":
-            follow(addon, actions.pop(0))
+            follow(addon, actions.pop(0), actions.pop(0))
         elif action == "set":
             name, value = actions.pop(0).split("=")
             owner = scene.sparselens

@@ -2,22 +2,9 @@
 # The add-on's Take Picture, and --picture: their pictures equal dof-gather's to the bit, nothing is rendered twice, the
 # scene is unchanged, and failures are reported. Pictures of 96x54; two minutes.
 #   bash pictures.sh BIN_DIR
-. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/by_hand.sh"
 PATH=$bin:$PATH
 in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
-press() { # FILE.blend VIEWS ACTION...
-    local blend=$1 folder=$2
-    shift 2
-    in_blender "$blend" -P "$source_dir/tests/blender/pictures.py" -- "$(dirname "$views")" "$PWD/$folder" "$@"
-}
-# by_hand VIEWS FRAME OPTION...: makes hand.exr from the views in this folder; FRAME is like .0001 or empty.
-by_hand() {
-    local folder=$1 frame=$2
-    shift 2
-    ldi-warp "$folder/center$frame.exr" "$folder"/view_?"$frame".exr -o hand.ldi.exr 2>log || fail "$(cat log)"
-    dof-gather hand.ldi.exr -o hand.exr --overscan crop "$@" 2>log || fail "$(cat log)"
-}
-same() { picture same "$1" hand.exr >found 2>&1 || fail "$2 ($(cat found))"; }
 
 # The panel reports what is in the files. A changed lens uses the same views and the same LDI.
 press small.blend still refuse 'center.exr is not there: press Render Views' render take
@@ -80,22 +67,13 @@ stat -c '%n %y' still/*.exr >before
 press small.blend still scene Other set folder="'$PWD/still'" refuse "$another" refuse-render "$another" refuse-finish "$another"
 stat -c '%n %y' still/*.exr | cmp - before || fail "another scene changed the views in its folder"
 if picture same still/center.exr still-Other/center.exr >found 2>&1; then fail "two scenes have one camera"; fi
-# Views with sub-pixels, which the files tell.
-press small.blend fine set supersample=2 render set supersample_auto=True take set supersample_auto=False set supersample=1 refuse "or the picture's size"
-by_hand fine ""
-same fine/picture.exr "views of twice the size"
-press small.blend still follow 2
+press small.blend still follow 2 96
 by_hand still "" --focus-distance 2
 same still/picture.exr "followed"
 press small.blend still stop
 echo "Take Picture: dof-gather's bits, the scene unchanged"
 
 # Finish gives the same as dof-finish by hand with the two renders and the current lens, and reports what it cannot do.
-finished_by_hand() { # VIEWS FRAME RAYS_FOLDER OPTION...
-    by_hand "$1" "$2" "${@:4}"
-    mv hand.exr gathered.exr
-    dof-finish gathered.exr "$3"/rays_{1,2}"$2".exr -o hand.exr 2>log || fail "$(cat log)"
-}
 press small.blend still focus 3 set finish=8 finish
 finished_by_hand still "" still --focus-distance 3
 same still/picture.exr "Finish"

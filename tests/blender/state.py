@@ -1,27 +1,72 @@
-"""The complete state of a scene, to compare before and after."""
+"""All properties of all data of the file, to compare before and after: scenes, objects, materials with their nodes, and
+so on, but not the windows. Pictures that the add-on shows are its results, and are left out.
+"""
 
 import bpy
 
+WINDOWS = {"screens", "workspaces", "window_managers"}
+# Counters and what Blender computes when it is asked; the pixels of pictures; and a list of rules for other programs.
+VOLATILE = {"rna_type", "bl_rna", "users", "session_uid", "is_updated", "is_dirty", "pixels", "depsgraph", "bl_icon",
+            "original", "has_data", "id_data"}
+LONG = 200  # of a longer list, such as a mesh's vertices, which no operator edits, only the length is compared
+SIMPLE = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 
-def values(thing):
-    """The simple properties of a thing, and the targets of its pointers."""
-    found = {}
+
+def plain(value):
+    """A copy of a value: Blender's vectors show what the property has later."""
+    return tuple(map(plain, value)) if hasattr(value, "__len__") and not isinstance(value, str) else value
+
+
+def walk(thing, path, found, within):
+    """Adds the properties of a thing, and of what belongs to it, but not of other data that it points at."""
+    key = thing.as_pointer(), type(thing).__name__
+    if key in within:
+        return
+    within = within | {key}
     for prop in thing.bl_rna.properties:
-        value = getattr(thing, prop.identifier)
-        if prop.type in {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}:
-            found[prop.identifier] = value if not hasattr(value, "__len__") else tuple(value)
-        elif prop.type == "POINTER":
-            found[prop.identifier] = str(value)
-    return found
+        name = prop.identifier
+        if name in VOLATILE:
+            continue
+        try:
+            value = getattr(thing, name)
+        except Exception:  # Blender has properties that cannot be read
+            continue
+        below = "%s.%s" % (path, name)
+        if prop.type in SIMPLE:
+            found[below] = sorted(value) if isinstance(value, set) else plain(value)
+        elif prop.type == "POINTER" and value is not None:
+            point(value, below, found, within)
+        elif prop.type == "COLLECTION":
+            found[below] = len(value)
+            for number, item in enumerate(value if len(value) <= LONG else ()):
+                if item is not None:
+                    point(item, "%s[%d]" % (below, number), found, within)
+
+
+def point(value, path, found, within):
+    if isinstance(value, bpy.types.ID) and not value.is_embedded_data:
+        found[path] = repr(value)
+    else:
+        walk(value, path, found, within)
+
+
+def is_result(data):
+    return isinstance(data, bpy.types.Image) and (
+        data.get("sparselens") is not None or data.type in {"RENDER_RESULT", "COMPOSITING"})
 
 
 def state(scene):
-    camera = scene.camera
-    things = {"scene": scene, "render": scene.render, "files": scene.render.image_settings, "camera": camera,
-              "lens": camera.data, "depth of field": camera.data.dof, "layer": scene.view_layers[0],
-              "cycles": scene.cycles, "eevee": scene.eevee, "colours": scene.view_settings, "settings": scene.sparselens,
-              "windows": bpy.context.preferences.view}
-    things.update({marker.name: marker for marker in scene.timeline_markers})
-    found = {(name, prop): value for name, thing in things.items() for prop, value in values(thing).items()}
-    found["objects"], found["cameras"] = sorted(bpy.data.objects.keys()), sorted(bpy.data.cameras.keys())
+    found = {"scene": repr(scene)}
+    walk(bpy.context.preferences.view, "preferences", found, frozenset())
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type == "COLLECTION" and prop.identifier not in WINDOWS:
+            for data in getattr(bpy.data, prop.identifier):
+                if not is_result(data):
+                    walk(data, repr(data), found, frozenset())
     return found
+
+
+def changes(before, after):
+    """Triples of a property and its two values."""
+    return [(key, before.get(key), after.get(key)) for key in sorted(before.keys() | after.keys())
+            if before.get(key) != after.get(key)]

@@ -11,7 +11,7 @@ import traceback
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from state import state  # noqa: E402
+from state import changes, state  # noqa: E402
 
 
 def check(true, text):
@@ -65,14 +65,21 @@ def until(true, what):
     check(False, "waited for %s" % what)
 
 
+def undo(*steps):
+    """Pushes these steps, then undoes one."""
+    with bpy.context.temp_override(window=main_window()):
+        for step in steps:
+            bpy.ops.ed.undo_push(message=step)
+        bpy.ops.ed.undo()
+
+
 def idle():
     return bpy.context.scene.camera.name == "Camera" and not bpy.app.is_job_running("RENDER")
 
 
 def same(before, what):
-    after = state(bpy.context.scene)
-    changes = [(key, value, after.get(key)) for key, value in before.items() if value != after.get(key)]
-    check(not changes, "%s changed %s" % (what, changes))
+    found = changes(before, state(bpy.context.scene))
+    check(not found, "%s changed %s" % (what, found[:20]))
 
 
 def taken():
@@ -144,12 +151,35 @@ def steps(addon, folder, screenshot):
     same(before, "Esc during Take Picture")
     check(not [name for name in os.listdir(folder) if "partial" in name], "Esc left %s" % os.listdir(folder))
 
+    # Undo takes the picture back, and nothing else. Blender's own undo changes a scene when it happens first.
+    undo("begin", "more")
+    yield
+    scene = bpy.context.scene
+    before = state(scene)
     press(bpy.ops.sparselens.take_picture)
     path = os.path.join(folder, "picture.exr")
     yield from until(lambda: taken() and taken().filepath == path and addon.taking.follower, "the picture")
     same(before, "Take Picture")
     check(taken() in shown(), "no image editor shows the picture")
+    undo()
+    yield
+    scene = bpy.context.scene
+    same(before, "Take Picture, undone,")
+
+    # Esc during Finish and Render Animation: the picture stays, and the scene is unchanged.
+    scene.cycles.samples, scene.sparselens.finish = 32, 64
+    before, files = state(scene), set(os.listdir(folder))
     first = os.path.getmtime(path)
+    for operator in bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:
+        press(operator)
+        yield from until(lambda: bpy.app.is_job_running("RENDER"), "a render")
+        escape()
+        yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "the render to stop")
+        yield
+        same(before, "Esc during %s" % operator.idname())
+        check(not set(os.listdir(folder)) - files and os.path.getmtime(path) == first, "Esc left %s" % os.listdir(folder))
+    scene.cycles.samples, scene.sparselens.finish = 4, 8
+    before = state(scene)
 
     # Two renders through the lens finish the picture; then the lens is followed again.
     press(bpy.ops.sparselens.finish)
@@ -166,10 +196,8 @@ def steps(addon, folder, screenshot):
     check(": warning: " in (addon.taking.follower.message or ": warning: "), addon.taking.follower.message)
 
     # Undo removes the image; the next change restores it.
-    with bpy.context.temp_override(window=main_window()):
-        bpy.ops.ed.undo_push(message="focus")
-        bpy.ops.ed.undo()
-        bpy.ops.ed.undo()
+    undo("focus")
+    undo()
     yield
     before = os.path.getmtime(path)
     bpy.context.scene.camera.data.dof.focus_distance = 3
