@@ -134,8 +134,8 @@ for k in 0 1; do
     header moments/center_$k.exr "sparselens:moment (type int): $k"
     header moments/view_1_$k.exr 'sparselens:moments (type int): 2'
 done
-header moments/center_0.exr '^ *0.999987 0 -0.00499998 0$' # the camera pans
-header moments/center_1.exr '^ *0.999987 0 0.00499998 0$'
+header moments/center_0.exr '(0.999987 0 -0.00499998 0$' # the camera pans
+header moments/center_1.exr '(0.999987 0 0.00499998 0$'
 exits 0 "$bin/ldi-warp" moments/center_%s.exr moments/view_0_%s.exr moments/view_1_%s.exr -o moments/ldi_%s.exr
 exits 0 "$bin/dof-gather" moments/ldi_%s.exr -o moments/picture.exr
 exits 0 "$trace" fence -o unmoved "${small[@]}" --reference 3 --motion-blur
