@@ -21,6 +21,7 @@ import sys
 import time
 
 import bpy
+from mathutils import Matrix
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from state import changes, state  # noqa: E402
@@ -110,8 +111,8 @@ def show_scene(name):
         scene.name, scene.sparselens.folder = name, scene.sparselens.folder + "-" + name
         scene.camera = bpy.context.scene.camera.copy()
         scene.camera.data = scene.camera.data.copy()
-        scene.camera.location.x += 0.3
         scene.collection.objects.link(scene.camera)
+        scene.camera.matrix_world = Matrix.Translation((0.3, 0, 0)) @ bpy.context.scene.camera.matrix_world
     bpy.context.window.scene = scene
     bpy.context.view_layer.update()
 

@@ -67,6 +67,15 @@ stat -c '%n %y' still/*.exr >before
 press small.blend still scene Other set folder="'$PWD/still'" refuse "$another" refuse-render "$another" refuse-finish "$another"
 stat -c '%n %y' still/*.exr | cmp - before || fail "another scene changed the views in its folder"
 if picture same still/center.exr still-Other/center.exr >found 2>&1; then fail "two scenes have one camera"; fi
+# Views of another .blend file that is beside this one are not overwritten by the panel; Take Picture warns. If it is not
+# there any more, it has another name now.
+cp small.blend other.blend
+mkdir -p moved && cp small.blend moved/other.blend
+press other.blend still refuse-render "still/center.exr is a view of small.blend: choose another folder for the views of other.blend, or delete those that are there" \
+    focus 3 take
+grep -q "Warning: $PWD/still/center.exr is a view of small.blend" said || fail "another file: $(tail -n 3 said)"
+press moved/other.blend still focus 3 take
+if grep -q "a view of small" said; then fail "a file that has moved: $(grep 'a view of' said)"; fi
 press small.blend still follow 2 96
 by_hand still "" --focus-distance 2
 same still/picture.exr "followed"

@@ -1,6 +1,9 @@
 """All properties of all data of the file, to compare before and after: scenes, objects, materials with their nodes, and
-so on, but not the windows. Pictures that the add-on shows are its results, and are left out.
+so on, but not the windows. What the add-on makes is left out: pictures that it shows, and its node group with the
+pictures in it.
 """
+
+import os
 
 import bpy
 
@@ -51,11 +54,16 @@ def point(value, path, found, within):
 
 
 def is_result(data):
-    return isinstance(data, bpy.types.Image) and (
-        data.get("sparselens") is not None or data.type in {"RENDER_RESULT", "COMPOSITING"})
+    if isinstance(data, bpy.types.Image):
+        return (data.get("sparselens") is not None or data.type in {"RENDER_RESULT", "COMPOSITING"}
+                or os.path.basename(data.filepath).startswith("picture."))
+    return isinstance(data, bpy.types.NodeTree) and data.name == "Sparse lens"
 
 
 def state(scene):
+    for other in bpy.data.scenes:
+        for layer in other.view_layers:
+            layer.update()  # what Blender computes from the rest, such as matrices
     found = {"scene": repr(scene)}
     walk(bpy.context.preferences.view, "preferences", found, frozenset())
     for prop in bpy.data.bl_rna.properties:

@@ -167,7 +167,7 @@ def steps(addon, folder, screenshot):
     same(before, "Take Picture, undone,")
 
     # Esc during Finish and Render Animation: the picture stays, and the scene is unchanged.
-    scene.cycles.samples, scene.sparselens.finish = 32, 64
+    scene.cycles.samples, scene.sparselens.finish = 1024, 4096  # so that Esc comes during a render
     before, files = state(scene), set(os.listdir(folder))
     first = os.path.getmtime(path)
     for operator in bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from . import pictures, tools
 from .chain import Chain
 from .halves import check_halves, check_looks, halves_steps
+from .kept import of_other_file
 from .looks import looks_of
 from .one_view import view_steps
 from .renders import folder_of, used_layers
@@ -32,6 +33,7 @@ class Finishing:
         for eye in eyes_of(scene):
             files, shot = pictures.files_to_take(
                 scene, views, eye, settings.views, manner.supersample)
+            self.warnings += filter(None, [of_other_file(files.each("center"))])
             self.eyes.append((eye, shot, files))
 
     def steps(self):

@@ -2,6 +2,7 @@
 as they would be now. Other changes of the scene leave no trace in a file.
 """
 
+import os
 import struct
 from dataclasses import replace
 
@@ -12,7 +13,7 @@ from .for_a_while import samples_of
 from .layers import folder_named
 from .shots import camera_attributes, view_placement
 
-NAMES = {"Camera", "sparselens:scene"}  # may change
+NAMES = {"Camera", "sparselens:scene", "sparselens:file"}  # may change
 
 # The lens may change afterwards, but it must not become wider than the views.
 OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
@@ -122,6 +123,20 @@ def check_scene_of(path, scene):
         raise ValueError("%s is a view of scene '%s': choose another folder "
                          "for the views of scene '%s'"
                          % (path, name, scene.name))
+
+
+def of_other_file(paths):
+    """The first of these files that is a view of another .blend file, in
+    words; None if there is none. The name of a file that is not beside this
+    one is the former name of one that was renamed or moved."""
+    folder, own = os.path.split(bpy.data.filepath)
+    for path in paths:
+        header = header_of(path) or {}
+        name = header.get("sparselens:file", ("", b""))[1].decode()
+        if own and name not in ("", own) and os.path.exists(
+                os.path.join(folder, name)):
+            return "%s is a view of %s" % (path, name)
+    return None
 
 
 def is_kept(path, shot, u, others):

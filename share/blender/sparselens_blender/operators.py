@@ -11,7 +11,7 @@ from .chain import Once
 from .finishing import Finishing
 from .layers import names_of
 from .manner import Count, Manner
-from .renders import folder_of, render_now, views_steps
+from .renders import check_folder, folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of
 from .sub_pixels import AUTO, supersample_in
@@ -105,6 +105,7 @@ class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
             frames = frames_of(scene)
         views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
         self.folder, self.count = folder_of(settings.folder), Count()
+        check_folder(self.folder, eyes, frames, settings.animation)
         self.most = len(frames) * views_in(settings) * len(eyes)
         self.steps = views_steps(
             scene, frames, self.folder, lambda frame: views, eyes,
@@ -135,6 +136,8 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
         manner = manner_of(settings)
         manner.keep = settings.keep
         eyes, frames = eyes_of(scene), frames_of(scene)
+        if not settings.keep:
+            check_folder(folder_of(settings.folder), eyes, frames, True)
         self.pictures = Pictures(scene, eyes, manner, options, self.warn)
         self.pictures.render_again = ("if more than the lens has changed, "
                                       "switch Keep Views off")

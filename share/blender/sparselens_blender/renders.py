@@ -20,7 +20,7 @@ from .for_a_while import finer, only_layer, render_settings, still_camera
 from .halves import check_halves, halves_steps
 from .kept import (
     check_scene_of, denoises, is_kept, is_kept_volume, manner_attributes,
-    overscan_of_file, part_attributes, windows)
+    of_other_file, overscan_of_file, part_attributes, windows)
 from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
 from .shots import camera_attributes, eyes_of, shot_of
@@ -158,14 +158,23 @@ def frame_ending(frame, several):
     return ".%04d.exr" % frame if several else ".exr"
 
 
-def check_folder(scene, folder, eyes, endings):
-    """Raises ValueError if views of another scene are where those of this
-    one would go."""
+def centers_in(folder, eyes, endings):
+    """Where the centre views go, and those of first moments."""
     for ending in endings:
         for eye in eyes:
             center = os.path.join(folder, "center" + eye.file_suffix + ending)
-            for path in center, of_moment(center, 0):
-                check_scene_of(path, scene)
+            yield from (center, of_moment(center, 0))
+
+
+def check_folder(folder, eyes, frames, several):
+    """Raises ValueError if views of another .blend file are where those of
+    this one would go."""
+    found = of_other_file(centers_in(
+        folder, eyes, [frame_ending(frame, several) for frame in frames]))
+    if found:
+        raise ValueError("%s: choose another folder for the views of %s, or "
+                         "delete those that are there"
+                         % (found, os.path.basename(bpy.data.filepath)))
 
 
 def manner_steps(scene, folder, ending, manner):
@@ -198,8 +207,13 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
         check_slices(scene, [manner.layer] if manner.layer
                      else used_layers(scene))
     parts_of(scene, manner.layers)
-    check_folder(scene, folder, eyes,
-                 [frame_ending(frame, several) for frame in frames])
+    centers = list(centers_in(folder, eyes, [
+        frame_ending(frame, several) for frame in frames]))
+    for path in centers:
+        check_scene_of(path, scene)
+    found = of_other_file(centers)
+    if found:
+        say(found)
     os.makedirs(folder, exist_ok=True)
     before, within = scene.frame_current, scene.frame_subframe
     try:

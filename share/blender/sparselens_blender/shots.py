@@ -3,6 +3,7 @@ attributes that describe it.
 """
 
 import math
+import os
 from dataclasses import dataclass
 
 import bpy
@@ -231,6 +232,7 @@ def camera_attributes(shot, placement):
     }
     return subpixels | {
         "sparselens:scene": exr_text(shot.scene),
+        "sparselens:file": exr_text(os.path.basename(bpy.data.filepath)),
         "Camera": exr_text(shot.camera),
         "pinholeFocalLength": exr_float(shot.focal_length),
         "aperture": exr_float(shot.fstop),

@@ -6,6 +6,7 @@ import bpy
 
 from . import pictures, tools
 from .chain import Chain, ToolError
+from .kept import of_other_file
 from .looks import looks_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
@@ -84,6 +85,7 @@ class Taking:
             files, shot = pictures.files_to_take(
                 scene, views, eye, settings.views, supersample_in(settings),
                 settings.shutter)
+            self.warnings += filter(None, [of_other_file(files.each("center"))])
             layer = settings.multilayer and used_layers(scene)[0]
             ldi, made = files.of_moments("ldi"), files.path("picture")
             sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
