@@ -165,21 +165,7 @@ def steps(addon, folder, screenshot):
     yield
     scene = bpy.context.scene
     same(before, "Take Picture, undone,")
-
-    # Esc during Finish and Render Animation: the picture stays, and the scene is unchanged.
-    scene.cycles.samples, scene.sparselens.finish = 1024, 4096  # so that Esc comes during a render
-    before, files = state(scene), set(os.listdir(folder))
     first = os.path.getmtime(path)
-    for operator in bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:
-        press(operator)
-        yield from until(lambda: bpy.app.is_job_running("RENDER"), "a render")
-        escape()
-        yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "the render to stop")
-        yield
-        same(before, "Esc during %s" % operator.idname())
-        check(not set(os.listdir(folder)) - files and os.path.getmtime(path) == first, "Esc left %s" % os.listdir(folder))
-    scene.cycles.samples, scene.sparselens.finish = 4, 8
-    before = state(scene)
 
     # Two renders through the lens finish the picture; then the lens is followed again.
     press(bpy.ops.sparselens.finish)
