@@ -3,14 +3,15 @@
     blender SCENE.blend -P window.py -- FOLDER VIEWS [SCREENSHOT.png]
 """
 
-import ctypes
 import os
 import sys
+import time
 import traceback
 
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from keyboard import press_key  # noqa: E402
 from state import changes, state  # noqa: E402
 
 
@@ -26,34 +27,6 @@ def main_window():
 def press(operator):
     with bpy.context.temp_override(window=main_window()):
         check(operator("INVOKE_DEFAULT") == {"RUNNING_MODAL"}, "%s does not run on" % operator)
-
-
-class KeyEvent(ctypes.Structure):
-    """XKeyEvent of Xlib.h, padded to the size of an XEvent."""
-
-    _fields_ = ([("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
-                 ("display", ctypes.c_void_p)]
-                + [(name, ctypes.c_ulong) for name in ("window", "root", "subwindow", "time")]
-                + [(name, ctypes.c_int) for name in ("x", "y", "x_root", "y_root")]
-                + [("state", ctypes.c_uint), ("keycode", ctypes.c_uint), ("same_screen", ctypes.c_int),
-                   ("rest", ctypes.c_long * 24)])
-
-
-def escape():
-    """A key press as the keyboard sends it: Blender's own event_simulate() does not stop a render."""
-    x11, window = ctypes.CDLL("libX11.so.6"), ctypes.c_ulong
-    for name in "XOpenDisplay", "XDefaultRootWindow":
-        getattr(x11, name).restype = ctypes.c_void_p if name == "XOpenDisplay" else window
-    display = ctypes.c_void_p(x11.XOpenDisplay(None))
-    root, parent, children, count = window(), window(), ctypes.POINTER(window)(), ctypes.c_uint()
-    x11.XQueryTree(display, window(x11.XDefaultRootWindow(display)), *[
-        ctypes.byref(found) for found in (root, parent, children, count)])
-    code = x11.XKeysymToKeycode(display, window(0xff1b))
-    for child in children[:count.value]:
-        for kind in 2, 3:  # pressed, released
-            event = KeyEvent(type=kind, display=display, window=child, root=root, keycode=code, same_screen=1)
-            x11.XSendEvent(display, window(child), 0, 0, ctypes.byref(event))
-    x11.XCloseDisplay(display)
 
 
 def until(true, what):
@@ -80,6 +53,48 @@ def idle():
 def same(before, what):
     found = changes(before, state(bpy.context.scene))
     check(not found, "%s changed %s" % (what, found[:20]))
+
+
+def files_in(folder):
+    return {os.path.relpath(os.path.join(parent, name), folder) for parent, _, names in os.walk(folder) for name in names}
+
+
+def esc_at_end_of(render):
+    """Presses Esc at the end of the render with this number, when it cannot be stopped any more. Blender is still in its
+    thread, and takes the key."""
+    left = [render]
+
+    def press_esc(*_):
+        left[0] -= 1
+        if left[0] == 0:
+            bpy.app.handlers.render_complete.remove(press_esc)
+            press_key("Esc")
+            time.sleep(1)
+
+    bpy.app.handlers.render_complete.append(press_esc)
+
+
+def stop_by_esc(addon, operator, folder, wait=None, end_of=None):
+    """Presses the button, and Esc after some steps, or at the end of a render. Returns the new files."""
+    picture = os.path.join(folder, "picture.exr")
+    before, files, first = state(bpy.context.scene), files_in(folder), os.path.getmtime(picture)
+    press_key("Shift_L")  # something is pressed before the button
+    yield
+    if end_of:
+        esc_at_end_of(end_of)
+    press(operator)
+    yield from until(lambda: bpy.app.is_job_running("RENDER"), "a render")
+    if not end_of:
+        for _ in range(wait):
+            yield
+        press_key("Esc")
+    yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "the render to stop")
+    yield
+    what = "Esc during %s, %s" % (operator.idname(), "render %d" % end_of if end_of else "step %d" % wait)
+    same(before, what)
+    found = files_in(folder) - files
+    check(os.path.getmtime(picture) == first, "%s: there is another picture" % what)
+    return found
 
 
 def taken():
@@ -129,7 +144,7 @@ def steps(addon, folder, screenshot):
     yield from until(lambda: os.path.exists(os.path.join(folder, "center.exr")) and bpy.app.is_job_running("RENDER"), "the second view")
     for other in bpy.ops.sparselens.render_views, bpy.ops.sparselens.take_picture, bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:
         check(not other.poll(), "%s can begin meanwhile" % other)
-    escape()
+    press_key("Esc")
     yield from until(idle, "the render to stop")
     yield
     same(before, "Esc")
@@ -145,7 +160,7 @@ def steps(addon, folder, screenshot):
 
     # Esc during Take Picture leaves whole files.
     press(bpy.ops.sparselens.take_picture)
-    escape()
+    press_key("Esc")
     yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "Take Picture to stop")
     yield
     same(before, "Esc during Take Picture")
@@ -165,7 +180,28 @@ def steps(addon, folder, screenshot):
     yield
     scene = bpy.context.scene
     same(before, "Take Picture, undone,")
+
+    # Esc whenever it comes, ten times in a row: what was rendered stays, and the rest is as before.
+    scene.sparselens.finish = 4096
+    for wait in range(4):
+        found = yield from stop_by_esc(addon, bpy.ops.sparselens.finish, folder, wait)
+        check(not found, "Esc during Finish left %s" % found)
+    scene.sparselens.finish = 8
+    for left in {"rays_1.exr"}, set():
+        found = yield from stop_by_esc(addon, bpy.ops.sparselens.finish, folder, end_of=1)
+        check(found == left, "Esc during Finish, render 1, left %s" % found)
+    scene.render.filepath, scene.sparselens.folder = os.path.join(folder, "shot"), os.path.join(folder, "frames")
+    scene.cycles.samples = 1024
+    for wait in range(2):
+        found = yield from stop_by_esc(addon, bpy.ops.sparselens.render_animation, folder, wait)
+        check(not found, "Esc during Render Animation left %s" % found)
+    scene.cycles.samples = 4
+    for end_of, left in (1, set()), (3, {"frames/center.0001.exr"}):
+        found = yield from stop_by_esc(addon, bpy.ops.sparselens.render_animation, folder, end_of=end_of)
+        check(found == left, "Esc during Render Animation, render %d, left %s" % (end_of, found))
+    scene.sparselens.folder = folder
     first = os.path.getmtime(path)
+    before = state(scene)
 
     # Two renders through the lens finish the picture; then the lens is followed again.
     press(bpy.ops.sparselens.finish)

@@ -18,6 +18,27 @@ class Stopped(Exception):
     """The user pressed Esc."""
 
 
+last_keys = []  # the last two keys or buttons, pressed or released
+
+
+class SPARSELENS_OT_note_keys(bpy.types.Operator):
+    """Note the last keys that were pressed"""
+
+    bl_idname = "sparselens.note_keys"
+    bl_label = "Note Keys"
+    bl_options = {"INTERNAL"}
+
+    def invoke(self, context, event):
+        last_keys[:] = event.type, event.type_prev
+        return {"CANCELLED"}
+
+
+def esc_is_last():
+    """Whether Esc is among the last keys, even if nothing has handled it."""
+    bpy.ops.sparselens.note_keys("INVOKE_DEFAULT")
+    return "ESC" in last_keys
+
+
 class BitByBit:
     """An operator with begin(context); tick(context), which returns whether
     all is done; and end(context), which is called however it ends."""
@@ -89,6 +110,7 @@ class Rendering:
     def __init__(self, scene, steps):
         self.scene, self.steps = scene.name, steps
         self.words, self.chain, self.stopped = "", None, False
+        self.esc = True  # until another key is pressed
         self.around = ExitStack()
 
     def begin(self):
@@ -104,6 +126,13 @@ class Rendering:
     def note_stop(self, *_):
         self.stopped = True
 
+    def is_esc_new(self):
+        """Whether Esc was pressed since the last step. From the end of a
+        render to the next turn of Blender's timer for jobs, .2 s, Blender
+        takes Esc but stops nothing."""
+        before, self.esc = self.esc, esc_is_last()
+        return self.esc and not before
+
     def tick(self):
         """Begins the next step if none runs. Returns whether all are done."""
         if bpy.app.is_job_running("RENDER"):
@@ -116,6 +145,8 @@ class Rendering:
         step = next(self.steps, None)
         if step is None:
             return True
+        if self.is_esc_new():
+            raise Stopped
         if isinstance(step, Chain):
             self.words, self.chain = "warping and gathering", step
         else:

@@ -7,6 +7,7 @@ import textwrap
 import bpy
 
 from . import looks, shutter, taking
+from .bit_by_bit import SPARSELENS_OT_note_keys
 from .operators import (
     SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
@@ -184,7 +185,8 @@ class SPARSELENS_PT_looks(InCamera, bpy.types.Panel):
 CLASSES = (SPARSELENS_Looks, SPARSELENS_Settings, SPARSELENS_Preferences,
            SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
            SPARSELENS_OT_finish, SPARSELENS_OT_render_animation,
-           SPARSELENS_OT_make_nodes, SPARSELENS_OT_find_tools,
+           SPARSELENS_OT_make_nodes, SPARSELENS_OT_note_keys,
+           SPARSELENS_OT_find_tools,
            SPARSELENS_OT_install_tools,
            SPARSELENS_PT_panel, SPARSELENS_PT_looks)
 

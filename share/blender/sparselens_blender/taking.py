@@ -110,17 +110,16 @@ class Taking:
 
     def tick(self):
         """Returns whether all is done. Raises the error if a stage failed."""
-        if self.chain is not None:
-            if not self.chain.poll():
-                return False
-            self.warnings += self.chain.warnings
-            for eye, path, size in self.to_show:
-                self.show(eye, path, size)
-        if not self.stages:
-            return True
-        self.words, commands = self.stages.pop(0)
-        self.chain = Chain([command for command, _ in commands])
-        self.to_show = [shown for _, shown in commands if shown]
+        while self.chain is None or self.chain.poll():
+            if self.chain is not None:
+                self.warnings += self.chain.warnings
+                for eye, path, size in self.to_show:
+                    self.show(eye, path, size)
+            if not self.stages:
+                return True
+            self.words, commands = self.stages.pop(0)
+            self.chain = Chain([command for command, _ in commands])
+            self.to_show = [shown for _, shown in commands if shown]
         return False
 
     def show(self, eye, path, size):
@@ -174,7 +173,7 @@ class Follower:
 
 
 follower = None
-INTERVAL = 0.1  # seconds
+INTERVAL = 0.05  # seconds
 
 
 def follow():
