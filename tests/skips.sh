@@ -1,12 +1,13 @@
 #!/bin/bash
 # Checks what the last run of ctest left out: each line must be in tests/allowed-skips.txt.
 #
-#   tests/skips.sh [BUILD_DIR]     build
+#   tests/skips.sh [BUILD_DIR | LOG]     build; or a log of ctest
 #
 # A test that is skipped, or skips a part, prints a line "skipped: WHAT". ctest counts it as passed.
 set -euo pipefail
 allowed=$(dirname "${BASH_SOURCE[0]}")/allowed-skips.txt
-log=${1:-build}/Testing/Temporary/LastTest.log
+log=${1:-build}
+[ -f "$log" ] || log=$log/Testing/Temporary/LastTest.log
 grep -q '^End testing' "$log" || { echo "skips.sh: ctest did not end ($log)" >&2; exit 1; }
 
 # may TEST WHAT: is it on the list?
