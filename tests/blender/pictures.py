@@ -6,8 +6,8 @@
         rename: gives the scene, the camera and its lens other names; camera NAME: uses this camera, which is made,
         a little apart, if it is not there; scene NAME: shows this scene, which is made with its own camera and folder;
         reload FILE.blend: saves the file under this name, and opens it; move: moves the camera; refuse PATTERN: taking
-        the picture gives this error, on one line; refuse-finish, refuse-render PATTERN: finishing and rendering do; stop: begins a render and a
-        picture, and stops both; follow D WIDTH: takes the picture, and lets it follow a new focus distance by a draft
+        the picture gives this error, on one line; refuse-finish, refuse-render, refuse-animate PATTERN: finishing, rendering
+        and Render Animation do; stop: begins a render and a picture, and stops both; follow D WIDTH: takes the picture, and lets it follow a new focus distance by a draft
         of this width; animate NAME: makes frames 1 and 2;
         compose FILE.exr: writes the output of the node group;
         set NAME=VALUE: sets a field of the panel, such as views=3 or lens_looks.cat_eye=0.5, or keys it:
@@ -79,7 +79,8 @@ def finish():
     check(image_of().filepath.endswith("picture.exr"), "the image shows %s" % image_of().filepath)
 
 
-REFUSERS = {"refuse": "take_picture", "refuse-finish": "finish", "refuse-render": "render_views"}
+REFUSERS = {"refuse": "take_picture", "refuse-finish": "finish", "refuse-render": "render_views",
+            "refuse-animate": "render_animation"}
 
 
 def refuse(pattern, operator):

@@ -98,15 +98,17 @@ press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press R
 press small.blend still set views=3 refuse "view_2.exr is not there"
 press small.blend still set supersample=2 refuse "or the picture's size"
 press small.blend still set looks="'--spherical 7'" refuse "dof-gather: .*spherical.*"
-PATH=${PATH#"$bin":} press small.blend still refuse 'ldi-warp and dof-gather are not found, neither beside the add-on'
+missing='ldi-warp and dof-gather are not found, neither beside the add-on'
+PATH=${PATH#"$bin":} press small.blend still refuse "$missing" refuse-finish "$missing" refuse-animate "$missing"
 if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=24k tmpfs full 2>log; then
-    press small.blend full refuse-render '/full/center.exr: No space left on device'
+    press small.blend full refuse-render '/full/center.exr: No space left on device' \
+        refuse-animate '/full/center.0001.exr: No space left on device'
     left=$(ls -A full)
     umount full
     [ -z "$left" ] || fail "a full disk: left are $left"
     mount -t tmpfs -o size=$(($(cat still/center.exr still/view_?.exr | wc -c) / 1024 + 40))k tmpfs full
     cp still/center.exr still/view_?.exr full
-    press small.blend full refuse 'ldi-warp: .*No space left on device'
+    press small.blend full refuse 'ldi-warp: .*No space left on device' refuse-finish '/full/rays_1.exr: No space left on device'
     left=$(ls -A full)
     umount full
     [ "$left" = "$(cd still && echo center.exr view_?.exr | tr ' ' '\n')" ] || fail "a full disk, Take Picture: left are $left"
