@@ -2,6 +2,9 @@
 """
 
 import ctypes
+import time
+
+import bpy
 
 SYMBOLS = {"Esc": 0xff1b, "Shift_L": 0xffe1}  # of keysymdef.h
 
@@ -32,3 +35,18 @@ def press_key(name):
             event = KeyEvent(type=kind, display=display, window=child, root=root, keycode=code, same_screen=1)
             x11.XSendEvent(display, window(child), 0, 0, ctypes.byref(event))
     x11.XCloseDisplay(display)
+
+
+def esc_at_end_of(render):
+    """Presses Esc at the end of the render with this number, when it cannot be stopped any more. Blender is still in its
+    thread, and takes the key."""
+    left = [render]
+
+    def press_esc(*_):
+        left[0] -= 1
+        if left[0] == 0:
+            bpy.app.handlers.render_complete.remove(press_esc)
+            press_key("Esc")
+            time.sleep(1)
+
+    bpy.app.handlers.render_complete.append(press_esc)

@@ -5,13 +5,12 @@
 
 import os
 import sys
-import time
 import traceback
 
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from keyboard import press_key  # noqa: E402
+from keyboard import esc_at_end_of, press_key  # noqa: E402
 from state import changes, state  # noqa: E402
 
 
@@ -59,22 +58,7 @@ def files_in(folder):
     return {os.path.relpath(os.path.join(parent, name), folder) for parent, _, names in os.walk(folder) for name in names}
 
 
-def esc_at_end_of(render):
-    """Presses Esc at the end of the render with this number, when it cannot be stopped any more. Blender is still in its
-    thread, and takes the key."""
-    left = [render]
-
-    def press_esc(*_):
-        left[0] -= 1
-        if left[0] == 0:
-            bpy.app.handlers.render_complete.remove(press_esc)
-            press_key("Esc")
-            time.sleep(1)
-
-    bpy.app.handlers.render_complete.append(press_esc)
-
-
-def stop_by_esc(addon, operator, folder, wait=None, end_of=None):
+def stop_by_esc(addon, operator, folder, wait, end_of):
     """Presses the button, and Esc after some steps, or at the end of a render. Returns the new files."""
     picture = os.path.join(folder, "picture.exr")
     before, files, first = state(bpy.context.scene), files_in(folder), os.path.getmtime(picture)
@@ -182,24 +166,18 @@ def steps(addon, folder, screenshot):
     same(before, "Take Picture, undone,")
 
     # Esc whenever it comes, ten times in a row: what was rendered stays, and the rest is as before.
-    scene.sparselens.finish = 4096
-    for wait in range(4):
-        found = yield from stop_by_esc(addon, bpy.ops.sparselens.finish, folder, wait)
-        check(not found, "Esc during Finish left %s" % found)
-    scene.sparselens.finish = 8
-    for left in {"rays_1.exr"}, set():
-        found = yield from stop_by_esc(addon, bpy.ops.sparselens.finish, folder, end_of=1)
-        check(found == left, "Esc during Finish, render 1, left %s" % found)
-    scene.render.filepath, scene.sparselens.folder = os.path.join(folder, "shot"), os.path.join(folder, "frames")
-    scene.cycles.samples = 1024
-    for wait in range(2):
-        found = yield from stop_by_esc(addon, bpy.ops.sparselens.render_animation, folder, wait)
-        check(not found, "Esc during Render Animation left %s" % found)
-    scene.cycles.samples = 4
-    for end_of, left in (1, set()), (3, {"frames/center.0001.exr"}):
-        found = yield from stop_by_esc(addon, bpy.ops.sparselens.render_animation, folder, end_of=end_of)
-        check(found == left, "Esc during Render Animation, render %d, left %s" % (end_of, found))
-    scene.sparselens.folder = folder
+    finish, animation = bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation
+    scene.render.filepath = os.path.join(folder, "shot")
+    for operator, samples, wait, end_of, left in (
+            *[(finish, 1024, wait, None, set()) for wait in range(4)],
+            (finish, 2, None, 1, {"rays_1.exr"}), (finish, 2, None, 1, set()),
+            *[(animation, 1024, wait, None, set()) for wait in range(2)],
+            (animation, 4, None, 1, set()), (animation, 4, None, 3, {"frames/center.0001.exr"})):
+        scene.cycles.samples, scene.sparselens.finish = samples, 4 * samples
+        scene.sparselens.folder = os.path.join(folder, "frames") if operator is animation else folder
+        found = yield from stop_by_esc(addon, operator, folder, wait, end_of)
+        check(found == left, "Esc left %s" % found)
+    scene.cycles.samples, scene.sparselens.finish, scene.sparselens.folder = 4, 8, folder
     first = os.path.getmtime(path)
     before = state(scene)
 
@@ -212,9 +190,11 @@ def steps(addon, folder, screenshot):
     first = os.path.getmtime(path)
 
     # A field changes: a draft, and the picture.
+    paths, image_of = [], addon.taking.image_of
+    addon.taking.image_of = lambda scene, eye, path: paths.append(path) or image_of(scene, eye, path)
     scene.camera.data.dof.focus_distance = 2
-    yield from until(lambda: taken().filepath != path, "a draft")
-    yield from until(lambda: taken().filepath == path and os.path.getmtime(path) > first, "the picture of another focus")
+    yield from until(lambda: path in paths and os.path.getmtime(path) > first, "the picture of another focus")
+    check([other == path for other in paths] == [False, True], "a draft and then the picture: %s" % paths)
     check(": warning: " in (addon.taking.follower.message or ": warning: "), addon.taking.follower.message)
 
     # Undo removes the image; the next change restores it.
