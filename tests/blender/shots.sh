@@ -1,5 +1,5 @@
 #!/bin/bash
-# The day-to-day shots of ../shared/shots, 96x54: pictures of --picture by its defaults, beside Cycles' own lens. Half a
+# The day-to-day shots of ../shared/shots, 96x54: pictures of --picture by its defaults, beside Cycles' own lens. A
 # minute.
 #   bash shots.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
@@ -8,8 +8,9 @@ shots=$source_dir/../shared/shots
 in_blender --factory-startup -P "$shots/make.py" -- "$PWD/base.blend"
 
 # Cameras, pixels, apertures, films and eyes; pictures that a warning belongs to; scenes that are refused.
-good=(static keyed rig shift aspect2 pct unit blades5 ratio transp transpfg stereo)
-warned=(border:'the render region is not used' mb:'motion blur is on')
+good=(static keyed rig shift aspect2 pct unit blades blades5 ratio transp transpfg nosuz onlysuz crypto stereo)
+warned=(border:'the render region is not used' bordercrop:'the render region is not used' mb:'motion blur is on'
+    holdout:"collection 'hold' is a holdout" layers:'the scene renders 2 view layers')
 refused=(ortho:"not a perspective one" pano:"not a perspective one")
 in_blender base.blend -P "$source_dir/tests/blender/shots.py" -- "$(dirname "$views")" "$shots/variants" "$PWD" "$bin" \
     "${good[@]}" "${warned[@]%%:*}" "${refused[@]%%:*}"
@@ -26,7 +27,7 @@ for name in "${good[@]}" "${warned[@]%%:*}"; do
     grep -qx 'exit code 0' "$name.said" || fail "$name: $(cat "$name.said")"
 done
 # Depth of field takes away at least half of what a pinhole's picture lacks: 2.5 dB of 3, beside the noise.
-for name in static keyed rig shift aspect2 pct unit blades5 ratio transp transpfg mb; do
+for name in static keyed rig shift aspect2 pct unit blades blades5 ratio transp transpfg nosuz onlysuz crypto mb; do
     gathered $name/center.exr $name.pinhole.exr --fstop inf
     nearer $name.exr $name.true.exr $name.pinhole.exr 2.5
 done
