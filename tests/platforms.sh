@@ -99,7 +99,7 @@ for step in "${steps[@]}"; do
         ;;
     blender)
         if within 'tools/install-deps.sh build blender demo test && cmake --preset release --log-level=WARNING &&
-                cmake --build build -j "$(nproc)" && tests/blender/run.sh build/bin' >"$log" 2>&1; then
+                cmake --build build -j "$(nproc)" && bash tests/blender/run.sh build/bin' >"$log" 2>&1; then
             results+=("Blender: passed" "$(grep '^skipped' "$log" || echo 'Blender: skipped nothing')")
         else
             code=1
