@@ -21,7 +21,6 @@ import sys
 import time
 
 import bpy
-from mathutils import Matrix
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from state import changes, state  # noqa: E402
@@ -113,7 +112,7 @@ def show_scene(name):
         scene.camera = bpy.context.scene.camera.copy()
         scene.camera.data = scene.camera.data.copy()
         scene.collection.objects.link(scene.camera)
-        scene.camera.matrix_world = Matrix.Translation((0.3, 0, 0)) @ bpy.context.scene.camera.matrix_world
+        scene.camera.location.x += 0.3
     bpy.context.window.scene = scene
     bpy.context.view_layer.update()
 
@@ -200,6 +199,8 @@ def main(folder, views, *actions):
     scene.sparselens.folder, scene.sparselens.views = views, 2
     scene.sparselens.overscan_auto, scene.sparselens.overscan = False, 4
     scene.sparselens.supersample_auto = False
+    if bpy.app.version >= (4, 2):  # Blender 5 changes it with the format of the files
+        scene.render.image_settings.linear_colorspace_settings.name = "ACEScg"
     actions = list(actions)
     while actions:
         scene, action = bpy.context.scene, actions.pop(0)

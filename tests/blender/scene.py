@@ -40,6 +40,7 @@ def build(engine, size, path):
     scene.render.engine = engine_named(engine)
     scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
+    scene.render.image_settings.file_format = "PNG"  # names the files' colours, too, which are unnamed in an empty file
     scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 64, False, False
     scene.cycles.max_bounces = 2
     scene.eevee.taa_render_samples = 16

@@ -8,9 +8,10 @@ import os
 import bpy
 
 WINDOWS = {"screens", "workspaces", "window_managers"}
-# Counters and what Blender computes when it is asked; the pixels of pictures; and a list of rules for other programs.
+# Counters and what Blender computes when it is asked; the pixels of pictures; a list of rules for other programs; and
+# settings of a brush, at which Blender 4.2 crashes if it has none.
 VOLATILE = {"rna_type", "bl_rna", "users", "session_uid", "is_updated", "is_dirty", "pixels", "depsgraph", "bl_icon",
-            "original", "has_data", "id_data"}
+            "original", "has_data", "id_data", "uv_sculpt"}
 LONG = 200  # of a longer list, such as a mesh's vertices, which no operator edits, only the length is compared
 SIMPLE = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 

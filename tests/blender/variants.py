@@ -95,9 +95,16 @@ def make_lens(scene, camera):
     key(target, "location", (0.5, 3, 0.8), (0.5, 5, 0.8))
 
 
+def curves_of(action):
+    """In Blender 5 they are in layers."""
+    if hasattr(action, "fcurves"):
+        return action.fcurves
+    return action.layers[0].strips[0].channelbags[0].fcurves
+
+
 def straight(thing):
     """Makes the motion between the keys even."""
-    for curve in thing.animation_data.action.fcurves:
+    for curve in curves_of(thing.animation_data.action):
         for point in curve.keyframe_points:
             point.interpolation = "LINEAR"
 

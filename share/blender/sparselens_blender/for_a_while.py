@@ -20,6 +20,20 @@ def changed(thing, **values):
 
 
 @contextmanager
+def other_files(settings, **values):
+    """Changes the image_settings of a render for a while. With the format
+    Blender also changes the colours of the files."""
+    colours = getattr(settings, "linear_colorspace_settings", None)
+    name = colours.name if colours else ""
+    try:
+        with changed(settings, **values):
+            yield
+    finally:
+        if name:
+            colours.name = name
+
+
+@contextmanager
 def still_camera(scene):
     """Replaces the scene's camera for a while by one without animation and
     depth of field. Markers drop their cameras meanwhile; otherwise the render
@@ -77,7 +91,7 @@ def render_settings(scene, size, multilayer=False, codec="ZIP", noisy=False):
     views; with `noisy`, each view also as it was before denoising."""
     render = scene.render
     with ExitStack() as stack:
-        stack.enter_context(changed(
+        stack.enter_context(other_files(
             render.image_settings,
             **file_settings(render.image_settings, multilayer, codec)))
         stack.enter_context(changed(

@@ -8,7 +8,7 @@ import bpy
 
 from . import pictures, tools
 from .chain import Chain, Once
-from .for_a_while import changed
+from .for_a_while import other_files
 from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
 from .manner import Count
@@ -156,7 +156,7 @@ class Pictures:
         if "media_type" in settings.bl_rna.properties:  # since Blender 5
             values = {"media_type": "IMAGE"} | values
         try:
-            with changed(settings, **values):
+            with other_files(settings, **values):
                 image.save_render(partial, scene=self.scene)
             os.replace(partial, out)
         finally:
