@@ -8,10 +8,10 @@ import os
 import bpy
 
 WINDOWS = {"screens", "workspaces", "window_managers"}
-# Counters and what Blender computes when it is asked; the pixels of pictures; a list of rules for other programs; and
-# settings of a brush, at which Blender 4.2 crashes if it has none.
+# Counters, and what Blender computes from the rest, such as matrices of scenes that it evaluates later; the pixels of
+# pictures; a list of rules for other programs; and settings of a brush, at which Blender 4.2 crashes if it has none.
 VOLATILE = {"rna_type", "bl_rna", "users", "session_uid", "is_updated", "is_dirty", "pixels", "depsgraph", "bl_icon",
-            "original", "has_data", "id_data", "uv_sculpt"}
+            "original", "has_data", "id_data", "matrix_world", "matrix_local", "uv_sculpt"}
 LONG = 200  # of a longer list, such as a mesh's vertices, which no operator edits, only the length is compared
 SIMPLE = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 
@@ -64,7 +64,7 @@ def is_result(data):
 def state(scene):
     for other in bpy.data.scenes:
         for layer in other.view_layers:
-            layer.update()  # what Blender computes from the rest, such as matrices
+            layer.update()
     found = {"scene": repr(scene)}
     walk(bpy.context.preferences.view, "preferences", found, frozenset())
     for prop in bpy.data.bl_rna.properties:
