@@ -17,6 +17,7 @@
 
 #include <cstdio>
 #include <optional>
+#include <utility>
 #include <vector>
 
 using namespace sparselens;
@@ -50,21 +51,49 @@ void write_shown(const std::string &path, const Image &image) {
         write_flat_exr(path, image, {});
 }
 
-// Matches the frames one after the other. Writes the pictures of their fits.
-MatchedFrames match_frames(const std::vector<FrameFiles> &files, const MatchCommand &options,
-                           const ToolContext &tool) {
-    MatchRequest by = options.match;
-    by.lens = options.lens;
-    FrameMatcher matcher(by);
-    LdiCache cache;
-    for (const FrameFiles &frame : files) {
-        if (frame.number) tool.say(fmt::format("frame {}", *frame.number));
-        LdiRequest request = options;
+// The LDIs and the plates of the frames.
+class Shot {
+public:
+    Shot(const MatchCommand &options, const ToolContext &tool) : options_(options), tool_(tool) {}
+
+    const OpenedLdi &ldi(const FrameFiles &frame) {
+        if (frame.number) tool_.say(fmt::format("frame {}", *frame.number));
+        LdiRequest request = options_;
         request.input = frame.ldi;
-        const OpenedLdi &in = cache.load(request, tool.tell());
-        const FlatFile plate = read_flat_exr(frame.plate);
-        tell_reading(tool.tell(), frame.plate, plate.notes, plate.warnings);
-        write_shown(frame.show, matcher.match(in, plate.image, frame.plate, *tool.progress));
+        return cache_.load(request, tool_.tell());
+    }
+    Image plate(const FrameFiles &frame) {
+        FlatFile plate = read_flat_exr(frame.plate);
+        tell_reading(tool_.tell(), frame.plate, plate.notes, plate.warnings);
+        return std::move(plate.image);
+    }
+
+private:
+    const MatchCommand &options_;
+    const ToolContext &tool_;
+    LdiCache cache_;
+};
+
+// The shape of the lens, from the first frame that tells it.
+std::optional<MatchedShape> find_shape(Shot &shot, const std::vector<FrameFiles> &files,
+                                       const MatchRequest &request, const ToolContext &tool) {
+    for (const FrameFiles &frame : files) {
+        const OpenedLdi &in = shot.ldi(frame);
+        if (const auto shape = match_shape(in, shot.plate(frame), frame.plate, request, *tool.progress))
+            return shape;
+    }
+    warn(tool, "the plates do not tell the shape of the lens: it needs lamps or edges that are out of focus "
+               "by 6 pixels and more");
+    return {};
+}
+
+// Matches the frames one after the other. Writes the pictures of their fits.
+MatchedFrames match_frames(Shot &shot, const std::vector<FrameFiles> &files, const MatchRequest &request,
+                           const ToolContext &tool) {
+    FrameMatcher matcher(request);
+    for (const FrameFiles &frame : files) {
+        const OpenedLdi &in = shot.ldi(frame);
+        write_shown(frame.show, matcher.match(in, shot.plate(frame), frame.plate, *tool.progress));
     }
     return matcher.smooth();
 }
@@ -74,7 +103,8 @@ using Json = nlohmann::ordered_json;
 int key_of(const FrameFiles &files) { return files.number.value_or(1); }
 
 // The keys that options read (harness/commands/keys.h), and the intervals.
-Json keys_of(const std::vector<FrameFiles> &files, const std::vector<MatchedLens> &lenses) {
+Json keys_of(const std::vector<FrameFiles> &files, const std::vector<MatchedLens> &lenses,
+             const std::optional<MatchedShape> &shape) {
     Json keys;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const MatchedLens &lens = lenses[i];
@@ -86,6 +116,9 @@ Json keys_of(const std::vector<FrameFiles> &files, const std::vector<MatchedLens
         add("focus_distance", lens.focus_distance);
         add("lens_radius", lens.lens_radius);
         if (lens.fstop) add("fstop", *lens.fstop);
+        if (!shape) continue;
+        const Json values = as_json(*shape);
+        for (const auto &[name, value] : values.items()) keys[name][frame] = value;
     }
     return keys;
 }
@@ -112,7 +145,13 @@ void print(const std::string &text) {
 
 void run(const MatchCommand &options, const ToolContext &tool) {
     const std::vector<FrameFiles> files = files_of(options);
-    const auto &[lenses, warnings] = match_frames(files, options, tool);
+    Shot shot(options, tool);
+    MatchRequest request = options.match;
+    request.lens = options.lens;
+    std::optional<MatchedShape> shape;
+    if (options.shape) shape = find_shape(shot, files, request, tool);
+    if (shape) request = with_shape(request, *shape);
+    const auto &[lenses, warnings] = match_frames(shot, files, request, tool);
     for (const std::string &text : warnings) warn(tool, text);
     for (std::size_t i = 0; i < files.size(); ++i) {
         ToolContext of_frame;
@@ -125,9 +164,14 @@ void run(const MatchCommand &options, const ToolContext &tool) {
     for (std::size_t i = 0; i < files.size(); ++i) {
         lines.push_back({{"frame", key_of(files[i])}});
         lines.back().update(as_json(lenses[i]));
+        if (shape) lines.back()["shape"] = as_json(*shape);
     }
-    if (!options.output.empty()) write_text_file(options.output, keys_of(files, lenses).dump(1) + '\n');
+    if (!options.output.empty())
+        write_text_file(options.output, keys_of(files, lenses, shape).dump(1) + '\n');
     print(options.json ? lines.dump(1) + '\n' : table_of(files, lenses));
+    if (shape && !options.json)
+        print(fmt::format("--blades {} --blade-rotation {:.0f} --squeeze {:.2f}\n", shape->blades,
+                          shape->rotation, shape->squeeze));
 }
 
 } // namespace

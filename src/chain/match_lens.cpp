@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
 
@@ -36,22 +38,23 @@ double distance(const Comparison &pictures, const BlurGuess &a, const BlurGuess 
     return std::abs(a.coc - b.coc) + std::abs(a.scale - b.scale) * (pictures.near - pictures.far) / 2;
 }
 
-struct Found {
-    BlurGuess guess;
-    bool is_ambiguous = false; // another lens fits as well
-};
-
-Found search(const Comparison &pictures, const KnownLens &known) {
+// The guesses of the search that may be right, the best first, each on a hill of its own.
+std::vector<LensFit> search(const Comparison &pictures, const KnownLens &known) {
     std::vector<LensFit> fits;
     for (const BlurGuess &guess : search_lens(pictures, known))
-        fits.push_back(refine_lens(pictures, known, guess, MatchTuning::search_steps));
-    const auto best = std::ranges::max_element(fits, {}, &LensFit::likelihood);
-    Found found{best->guess};
-    for (const LensFit &other : fits)
-        found.is_ambiguous =
-            found.is_ambiguous || (distance(pictures, best->guess, other.guess) > MatchTuning::apart_px &&
-                                   lead(*best, other) < MatchTuning::least_lead);
-    return found;
+        fits.push_back(
+            refine_lens(pictures, known, guess, MatchTuning::search_steps, MatchTuning::search_reach_px));
+    std::ranges::stable_sort(fits, std::greater(), &LensFit::likelihood);
+    std::vector<LensFit> hills;
+    for (LensFit &fit : fits) {
+        const auto is_near = [&](const LensFit &hill) {
+            return distance(pictures, hill.guess, fit.guess) < MatchTuning::search_step;
+        };
+        if (std::ranges::any_of(hills, is_near)) continue;
+        if (!hills.empty() && lead(hills.front(), fit) > MatchTuning::certain_lead) continue;
+        hills.push_back(std::move(fit));
+    }
+    return hills;
 }
 
 // The guess for pictures that are `ratio` times larger.
@@ -61,60 +64,41 @@ BlurGuess enlarged(BlurGuess guess, double ratio) {
     return guess;
 }
 
-BlurGuess guess_near(const MatchedLens &near, const Reduced &in) {
-    const double scale = near.lens_radius.value / in.radius();
-    const double focus = perceptive_depth(in.depth_scale(), near.focus_distance.value);
-    return {scale * (focus - in.pictures.middle), scale, std::pow(near.softness / in.by(), 2)};
-}
-
-KnownLens known_lens_of(const Match &match, const Reduced &in) {
-    KnownLens known;
-    if (match.request.fit == MatchFit::focus) known.scale = 1;
-    if (match.request.fit != MatchFit::fstop) return known;
-    if (!match.camera.focus_distance)
-        throw UsageError("the focus distance is unknown: give `focus_distance`");
-    known.focus = perceptive_depth(in.depth_scale(), *match.camera.focus_distance);
-    return known;
-}
-
-} // namespace
-
-MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
-                       const MatchRequest &request, Progress &progress) {
-    Match match{in,
-                plate,
-                plate_name,
-                request,
-                camera_with_options(request.lens, in.camera),
-                {},
-                in.camera.supersample.value_or(1)};
-    const Imath::Box2i display = reduced(in.ldi.windows.display, match.across);
-    if (plate.windows.display != display)
-        throw Error(
-            fmt::format("{}: its display window is {} x {}, that of {} is {} x {}: give a plate of the "
-                        "same size",
-                        plate_name, plate.windows.display_width(), plate.windows.display_height(), in.name,
-                        Grid(display).width(), Grid(display).height()));
-    if (!(resolve_radius(match.camera) > 0))
-        throw UsageError("the lens of the LDI has no blur to compare: give `fstop`");
-    match.region = common_pixels(request.region.value_or(display), display);
-    progress.start("matching", 2);
-    const int width = Grid(match.region).width();
-    const Reduced fine(match, pieces_of(width, MatchTuning::final_width), true);
-    const KnownLens known = known_lens_of(match, fine);
-    BlurGuess guess;
+// The best fit of the final size, and whether another lens fits as well.
+struct Found {
+    LensFit fit;
     bool is_ambiguous = false;
-    if (request.near) {
-        guess = guess_near(*request.near, fine);
-    } else {
-        const Reduced small(match, pieces_of(width, MatchTuning::search_width), false);
-        const Found found = search(small.pictures, known_lens_of(match, small));
-        guess = enlarged(found.guess, double(small.by()) / fine.by());
-        is_ambiguous = found.is_ambiguous;
-    }
-    progress.advance();
-    const LensFit fit = refine_lens(fine.pictures, known, guess,
-                                    request.near ? MatchTuning::next_frame_steps : MatchTuning::final_steps);
+};
+
+Found best_fit(const Match &match, const Reduced &fine, bool highlights) {
+    const KnownLens known = known_lens(match, fine);
+    const MatchedLens *near = match.request.near;
+    if (near)
+        return {refine_lens(fine.pictures, known, guess_near(*near, fine), MatchTuning::next_frame_steps,
+                            MatchTuning::final_reach_px)};
+    const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false,
+                        highlights);
+    std::vector<LensFit> fits;
+    for (const LensFit &hill : search(small.pictures, known_lens(match, small)))
+        fits.push_back(refine_lens(fine.pictures, known, enlarged(hill.guess, double(small.by()) / fine.by()),
+                                   MatchTuning::final_steps, MatchTuning::final_reach_px));
+    const auto best = std::ranges::max_element(fits, {}, &LensFit::likelihood);
+    const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
+        return distance(fine.pictures, best->guess, other.guess) > MatchTuning::apart_px &&
+               lead(*best, other) < MatchTuning::least_lead;
+    });
+    return {std::move(*best), is_ambiguous};
+}
+
+struct Attempt {
+    MatchedLens lens;
+    bool has_texture = false;
+};
+
+Attempt attempt(const Match &match, bool highlights) {
+    const Reduced fine(match, pieces_of(Grid(match.region).width(), MatchTuning::final_width), true,
+                       highlights);
+    const auto [fit, is_ambiguous] = best_fit(match, fine, highlights);
     MatchedLens result;
     set_values(result, match, fine, fit);
     set_intervals(result, stops_by_radius(match.camera));
@@ -122,8 +106,20 @@ MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::strin
     result.matched_share = evidence.matched_share();
     result.doubt = doubt_of(result, fine, fit, evidence, is_ambiguous);
     result.fit = side_by_side(brightness(fit.shown), fine.pictures.plate);
+    return {std::move(result), evidence.textured >= MatchTuning::least_textured};
+}
+
+} // namespace
+
+MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
+                       const MatchRequest &request, Progress &progress) {
+    const Match match(in, plate, plate_name, request);
+    progress.start("matching", 2);
+    Attempt found = attempt(match, false);
     progress.advance();
-    return result;
+    if (!found.has_texture) found = attempt(match, true); // lamps may be all that there is
+    progress.advance();
+    return std::move(found.lens);
 }
 
 } // namespace sparselens

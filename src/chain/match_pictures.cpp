@@ -7,8 +7,11 @@
 #include "deep/front_samples.h"
 #include "deep/proxy.h"
 #include "lens/perceptive_depth.h"
+#include "match/clipping.h"
 #include "match/tuning.h"
 #include "view/resolve_looks.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +38,39 @@ Colours colours_in(const Image &image, const Imath::Box2i &box, const std::strin
 
 } // namespace
 
-Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.name), by_(by) {
+Match::Match(const OpenedLdi &in_, const Image &plate_, const std::string &plate_name_,
+             const MatchRequest &request_)
+    : in(in_), plate(plate_), plate_name(plate_name_), request(request_),
+      camera(camera_with_options(request.lens, in.camera)), across(in.camera.supersample.value_or(1)) {
+    const Imath::Box2i display = reduced(in.ldi.windows.display, across);
+    if (plate.windows.display != display)
+        throw Error(
+            fmt::format("{}: its display window is {} x {}, that of {} is {} x {}: give a plate of the "
+                        "same size",
+                        plate_name, plate.windows.display_width(), plate.windows.display_height(), in.name,
+                        Grid(display).width(), Grid(display).height()));
+    if (!(resolve_radius(camera) > 0))
+        throw UsageError("the lens of the LDI has no blur to compare: give `fstop`");
+    region = common_pixels(request.region.value_or(display), display);
+}
+
+KnownLens known_lens(const Match &match, const Reduced &in) {
+    KnownLens known;
+    if (match.request.fit == MatchFit::focus) known.scale = 1;
+    if (match.request.fit != MatchFit::fstop) return known;
+    if (!match.camera.focus_distance)
+        throw UsageError("the focus distance is unknown: give `focus_distance`");
+    known.focus = perceptive_depth(in.depth_scale(), *match.camera.focus_distance);
+    return known;
+}
+
+BlurGuess guess_near(const MatchedLens &near, const Reduced &in) {
+    const double scale = near.lens_radius.value / in.radius();
+    const double focus = perceptive_depth(in.depth_scale(), near.focus_distance.value);
+    return {scale * (focus - in.pictures.middle), scale, std::pow(near.softness / in.by(), 2)};
+}
+
+Reduced::Reduced(const Match &match, int by, bool is_final, bool highlights) : name_(match.in.name), by_(by) {
     const int factor = by * match.across;
     if (factor > 1)
         ldi_ = proxy(match.in.ldi, factor,
@@ -50,10 +85,14 @@ Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.nam
     box_ = common_pixels(common_pixels(reduced(match.region, by), ldi_.windows.data), plate_data);
     choose_gathers(match, is_final);
     const Image small = by == 1 ? match.plate : mean_of_subpixels(match.plate, {by, {}}, plate_data);
-    pictures.plate = brightness(tone_mapped(colours_in(small, box_, match.plate_name)));
+    pictures.colours = tone_mapped(colours_in(small, box_, match.plate_name));
+    pictures.plate = brightness(pictures.colours);
     find_usable();
+    if (!highlights) leave_out_highlights(match);
     find_depths();
-    pictures.gather = [this](double coc, double scale, bool exactly) { return gather(coc, scale, exactly); };
+    pictures.gather = [this](double coc, double scale, bool exactly) {
+        return gather(shape(), coc, scale, exactly);
+    };
 }
 
 double Reduced::depth_scale() const { return perceptive_scale(radius_, focal_px_); }
@@ -65,10 +104,9 @@ void Reduced::choose_gathers(const Match &match, bool is_final) {
                       match.camera, lens(1, 1), ldi_.windows);
     quickly_.gather.views_radius = views_radius(match.camera);
     exactly_ = quickly_;
-    quickly_.gather.lens.lens_samples =
-        is_final ? MatchTuning::derivative_points : MatchTuning::search_points;
+    quickly_.gather.lens.lens_samples = MatchTuning::search_points;
     if (is_final)
-        exactly_.gather.lens.quality = Quality::final;
+        exactly_.gather.lens.quality = match.request.near ? Quality::normal : Quality::final;
     else
         exactly_.gather.lens.lens_samples = MatchTuning::refine_points;
 }
@@ -92,6 +130,25 @@ void Reduced::find_usable() {
     }
 }
 
+void Reduced::leave_out_highlights(const Match &match) {
+    const Imath::Box2i region = common_pixels(match.region, match.plate.windows.data);
+    const Colours plate = colours_in(match.plate, region, match.plate_name);
+    const std::vector<std::uint8_t> clipped = clipped_pixels(plate);
+    const Grid grid(box_);
+    std::vector<std::uint8_t> left = pictures.usable;
+    for (std::size_t i = 0; i < clipped.size(); ++i) {
+        if (!clipped[i]) continue;
+        const Imath::V2i at = plate.grid.pixel(i),
+                         beside(MatchTuning::beside_clipped, MatchTuning::beside_clipped);
+        const Imath::V2i middle = reduced(Imath::Box2i(at, at), by_).min;
+        const Imath::Box2i around(middle - beside, middle + beside);
+        for (int y = around.min.y; y <= around.max.y; ++y)
+            for (int x = around.min.x; x <= around.max.x; ++x)
+                if (box_.intersects(Imath::V2i(x, y))) left[grid.index(x, y)] = 0;
+    }
+    if (std::ranges::any_of(left, [](auto pixel) { return pixel != 0; })) pictures.usable = std::move(left);
+}
+
 void Reduced::find_depths() {
     std::vector<double> depths;
     for (std::size_t i = 0; i < pictures.usable.size(); ++i)
@@ -105,10 +162,11 @@ void Reduced::find_depths() {
     pictures.middle = (pictures.far + pictures.near) / 2;
 }
 
-Colours Reduced::gather(double coc, double scale, bool exactly) const {
+Colours Reduced::gather(const ApertureShape &shape, double coc, double scale, bool exactly) const {
     const double focus = std::max(pictures.middle + coc / scale, 0.0);
     Progress none;
-    const PictureOptions &by = exactly ? exactly_ : quickly_;
+    PictureOptions by = exactly ? exactly_ : quickly_;
+    by.gather.lens.looks.aperture = shape;
     return colours_in(gather_picture(ldi_, lens(focus, scale), box_, box_, by, none), box_, name_);
 }
 

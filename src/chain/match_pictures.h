@@ -11,6 +11,10 @@ namespace sparselens {
 
 // A shot to match: what does not depend on the size of the compared pictures.
 struct Match {
+    // Throws as match_lens() does.
+    Match(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
+          const MatchRequest &request);
+
     const OpenedLdi &in;
     const Image &plate;
     const std::string &plate_name;
@@ -23,7 +27,8 @@ struct Match {
 // Both pictures, `by` times smaller than the plate. Throws UsageError if they share no pixel of the region.
 class Reduced {
 public:
-    Reduced(const Match &match, int by, bool is_final);
+    // Without `highlights`, pixels beside clipped ones of the plate are not compared.
+    Reduced(const Match &match, int by, bool is_final, bool highlights);
     Reduced(const Reduced &) = delete; // `pictures` gathers from this
     Reduced &operator=(const Reduced &) = delete;
 
@@ -32,13 +37,16 @@ public:
     int by() const { return by_; }
     double radius() const { return radius_; }
     double depth_scale() const; // R F, pixels times scene units
+    const ApertureShape &shape() const { return exactly_.gather.lens.looks.aperture; }
+    // Through a lens of another shape.
+    Colours gather(const ApertureShape &shape, double coc, double scale, bool exactly) const;
 
 private:
     void choose_gathers(const Match &match, bool is_final);
     ThinLens lens(double focus, double scale) const; // `focus`: its perceptive depth
     void find_usable();
+    void leave_out_highlights(const Match &match);
     void find_depths();
-    Colours gather(double coc, double scale, bool exactly) const;
 
     std::string name_; // of the LDI, for messages
     int by_;
@@ -47,6 +55,10 @@ private:
     PictureOptions quickly_, exactly_;
     Imath::Box2i box_; // the compared pixels
 };
+
+// What the request says about the lens, and the guess that has the blur of a lens found before.
+KnownLens known_lens(const Match &match, const Reduced &in);
+BlurGuess guess_near(const MatchedLens &near, const Reduced &in);
 
 // The pixels of both; throws UsageError if there are none.
 Imath::Box2i common_pixels(const Imath::Box2i &a, const Imath::Box2i &b);

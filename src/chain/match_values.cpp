@@ -20,20 +20,20 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     const double by_coc = 1 / scale, by_scale = -coc / (scale * scale);
     const auto &c = fit.covariance;
     const double focus_variance =
-        by_coc * by_coc * c[0][0] + 2 * by_coc * by_scale * c[0][1] + by_scale * by_scale * c[1][1];
+        by_coc * by_coc * c.coc + 2 * by_coc * by_scale * c.both + by_scale * by_scale * c.scale;
     const auto coc_at = [middle = in.pictures.middle, coc = coc, scale = scale](double depth) {
         return std::abs(coc - scale * (depth - middle));
     };
     const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
     of.largest_coc = in.by() * largest;
-    of.coc_deviation = in.by() * wider(c[0][0], MatchTuning::gather_coc_px);
+    of.coc_deviation = in.by() * wider(c.coc, MatchTuning::gather_coc_px);
     of.focus_deviation = wider(focus_variance, MatchTuning::gather_coc_px / scale) / in.depth_scale();
     of.radius_deviation =
-        wider(c[1][1] / (scale * scale),
+        wider(c.scale / (scale * scale),
               std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6)));
     if (match.request.fit == MatchFit::fstop) of.focus_deviation = 0;
     if (match.request.fit == MatchFit::focus) of.radius_deviation = 0;
-    of.softness = std::sqrt(softness) * in.by();
+    of.softness = std::sqrt(std::max(softness, 0.0)) * in.by();
     of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
     of.lens_radius.value = in.radius() * scale;
 }

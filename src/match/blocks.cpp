@@ -3,24 +3,27 @@
 #include "base/parallel.h"
 #include "match/tuning.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace sparselens {
 
 namespace {
 
 constexpr std::size_t nuisances = 7, first_tint = 5; // 1, V, V^2, V_x, V_y, R - V, B - V
-constexpr std::size_t columns = nuisances + most_changes + 1;
-using Row = std::array<double, columns>; // of a pixel: the nuisances, the changes, the plate
+using Row = std::array<double, nuisances + 1>;       // of a pixel: the nuisances, the plate
 
-constexpr std::size_t plate_column = columns - 1;
-
+// Sums of products of the columns; the last column is the plate.
+template <std::size_t columns>
 struct Products {
-    std::array<Row, columns> of{};
+    std::array<std::array<double, columns>, columns> of{};
 
-    void add(const Row &row) {
-        for (std::size_t i = 0; i < columns; ++i)
-            for (std::size_t k = i; k < columns; ++k) of[i][k] += row[i] * row[k];
+    void add(const std::array<double, columns> &row, double weight) {
+        for (std::size_t i = 0; i < columns; ++i) {
+            const double value = weight * row[i];
+            for (std::size_t k = 0; k < columns; ++k) of[i][k] += value * row[k];
+        }
     }
     // Takes out of all later columns what column `i` explains of them.
     void sweep(std::size_t i, double least) {
@@ -30,7 +33,77 @@ struct Products {
             for (std::size_t k = j; k < columns; ++k) of[j][k] -= share * of[i][k];
         }
     }
+    double plate() const { return of[columns - 1][columns - 1]; }
 };
+
+// A fit whose errors have heavy tails: Student's t distribution, fitted by expectation and maximisation (Lange, Little
+// and Taylor 1989). So the few pixels at which the gathered picture is wrong, such as a gap in the LDI, hardly count.
+struct Robust {
+    std::vector<double> weights; // [pixel]
+    std::array<double, nuisances> by{};
+    double ridge = 0; // of the colours
+    double variance = 0, likelihood = 0;
+};
+
+// Fewer pixels than this say nothing about so many unknowns.
+constexpr int least_pixels = 3 * int(nuisances + most_changes + 1);
+
+double least_of(double diagonal, double pixels) { return 1e-4 * diagonal + 1e-12 * pixels; }
+
+// Finds the coefficients of the nuisances. The colours count only as far as they explain more than noise, because in a
+// grey block they would explain blur.
+template <std::size_t columns>
+void solve(Products<columns> sums, double pixels, Robust &fit) {
+    constexpr std::size_t plate = columns - 1;
+    std::array<double, plate> least{};
+    for (std::size_t i = 0; i < plate; ++i) least[i] = least_of(sums.of[i][i], pixels);
+    for (std::size_t i = 0; i < plate; ++i) {
+        if (i == first_tint) fit.ridge = MatchTuning::tint_ridge * sums.plate() / pixels;
+        if (i >= first_tint) sums.of[i][i] += fit.ridge;
+        sums.sweep(i, least[i]);
+    }
+    fit.by = {};
+    for (std::size_t i = plate; i-- > 0;) {
+        if (!(sums.of[i][i] > least[i])) continue;
+        double value = sums.of[i][plate];
+        for (std::size_t k = i + 1; k < plate; ++k) value -= sums.of[i][k] * fit.by[k];
+        fit.by[i] = value / sums.of[i][i];
+    }
+}
+
+// Fits the plate by the first nuisances, `used` of them.
+template <std::size_t used>
+Robust robust_fit(const std::vector<Row> &rows) {
+    constexpr double tails = MatchTuning::tails, least = MatchTuning::least_error * MatchTuning::least_error;
+    const auto pixels = double(rows.size());
+    Robust fit;
+    fit.weights.assign(rows.size(), 1);
+    std::vector<double> squares(rows.size());
+    for (int pass = 0; pass < MatchTuning::robust_fits; ++pass) {
+        Products<used + 1> sums;
+        for (std::size_t p = 0; p < rows.size(); ++p) {
+            std::array<double, used + 1> row;
+            std::copy_n(rows[p].begin(), used, row.begin());
+            row[used] = rows[p].back();
+            sums.add(row, fit.weights[p]);
+        }
+        solve(sums, pixels, fit);
+        double sum = 0;
+        for (std::size_t p = 0; p < rows.size(); ++p) {
+            double off = rows[p].back();
+            for (std::size_t i = 0; i < used; ++i) off -= fit.by[i] * rows[p][i];
+            squares[p] = off * off;
+            sum += fit.weights[p] * squares[p];
+        }
+        fit.variance = sum / pixels + least;
+        for (std::size_t p = 0; p < rows.size(); ++p)
+            fit.weights[p] = (tails + 1) / (tails + squares[p] / fit.variance);
+    }
+    fit.likelihood = -0.5 * pixels * std::log(fit.variance);
+    for (const double square : squares)
+        fit.likelihood -= 0.5 * (tails + 1) * std::log1p(square / (tails * fit.variance));
+    return fit;
+}
 
 // The pixels of a block.
 class Block {
@@ -40,53 +113,25 @@ public:
         : plate_(plate), usable_(usable), gathered_(gathered), changes_(changes), box_(box) {}
 
     BlockFit fit() {
-        for_each([&](std::size_t, int x, int y) { middle_ += value(x, y), ++count_; });
+        int count = 0;
+        for_each([&](std::size_t, int x, int y) { middle_ += value(x, y), ++count; });
         BlockFit result;
-        if (count_ < int(MatchTuning::least_share * double(Grid(box_).size())) || count_ < 3 * int(columns))
+        if (count < int(MatchTuning::least_share * double(Grid(box_).size())) || count < least_pixels)
             return result;
-        middle_ /= count_;
-        Products first;
-        for_each([&](std::size_t i, int x, int y) { first.add(row(i, x, y, false)); });
-        result.pixels = count_;
-        const double mean = first.of[0][plate_column] / count_;
-        result.before = first.of[plate_column][plate_column] - count_ * mean * mean;
-        // The coefficients of the nuisances, by elimination and substitution. The colours count only as far as they
-        // explain more than noise, because in a grey block they would explain blur.
-        std::array<double, nuisances> least{};
-        for (std::size_t i = 0; i < nuisances; ++i) least[i] = 1e-4 * first.of[i][i] + 1e-12 * count_;
-        double ridge = 0;
-        for (std::size_t i = 0; i < nuisances; ++i) {
-            if (i == first_tint)
-                ridge = MatchTuning::tint_ridge * first.of[plate_column][plate_column] / count_;
-            if (i >= first_tint) first.of[i][i] += ridge;
-            first.sweep(i, least[i]);
+        middle_ /= count;
+        std::vector<Row> rows;
+        rows.reserve(std::size_t(count));
+        for_each([&](std::size_t i, int x, int y) { rows.push_back(row(i, x, y)); });
+        const Robust flat = robust_fit<1>(rows), fit = robust_fit<nuisances>(rows);
+        result.pixels = count;
+        result.before = flat.variance;
+        result.left = fit.variance;
+        result.likelihood = fit.likelihood - flat.likelihood;
+        if (std::abs(fit.by[1]) > 1e-6) {
+            result.shift_x = -fit.by[3] / fit.by[1];
+            result.shift_y = -fit.by[4] / fit.by[1];
         }
-        std::array<double, nuisances> by{};
-        for (std::size_t i = nuisances; i-- > 0;) {
-            if (!(first.of[i][i] > least[i])) continue;
-            double value = first.of[i][plate_column];
-            for (std::size_t k = i + 1; k < nuisances; ++k) value -= first.of[i][k] * by[k];
-            by[i] = value / first.of[i][i];
-        }
-        result.left = std::max(first.of[plate_column][plate_column], 0.0);
-        if (std::abs(by[1]) > 1e-6) {
-            result.shift_x = -by[3] / by[1];
-            result.shift_y = -by[4] / by[1];
-        }
-        if (changes_.empty()) return result;
-        // Again, with the changes as the plate would show them.
-        by_ = by;
-        Products second;
-        for_each([&](std::size_t i, int x, int y) { second.add(row(i, x, y, true)); });
-        for (std::size_t i = 0; i < nuisances; ++i) {
-            if (i >= first_tint) second.of[i][i] += ridge;
-            second.sweep(i, least[i]);
-        }
-        for (std::size_t i = 0; i < most_changes; ++i) {
-            result.pull[i] = second.of[nuisances + i][plate_column];
-            for (std::size_t k = 0; k < most_changes; ++k)
-                result.stiffness[i][k] = second.of[nuisances + std::min(i, k)][nuisances + std::max(i, k)];
-        }
+        if (!changes_.empty()) measure_changes(rows, fit, result);
         return result;
     }
 
@@ -108,24 +153,46 @@ private:
         return double(gathered_.rgb[0][i] + gathered_.rgb[1][i] + gathered_.rgb[2][i]) / 3;
     }
 
-    Row row(std::size_t i, int x, int y, bool with_changes) const {
+    Row row(std::size_t i, int x, int y) const {
         const double v = value(x, y), off = v - middle_;
-        Row row{1,
+        return {1,
                 off,
                 off * off,
                 (value(x + 1, y) - value(x - 1, y)) / 2,
                 (value(x, y + 1) - value(x, y - 1)) / 2,
                 double(gathered_.rgb[0][i]) - v,
-                double(gathered_.rgb[2][i]) - v};
-        row[plate_column] = double(plate_.values[i]);
-        if (!with_changes) return row;
-        for (std::size_t c = 0; c < changes_.size(); ++c) {
-            const auto &rgb = changes_[c].rgb;
-            const double of_v = double(rgb[0][i] + rgb[1][i] + rgb[2][i]) / 3;
-            row[nuisances + c] = (by_[1] + 2 * by_[2] * off) * of_v + by_[5] * (double(rgb[0][i]) - of_v) +
-                                 by_[6] * (double(rgb[2][i]) - of_v);
+                double(gathered_.rgb[2][i]) - v,
+                double(plate_.values[i])};
+    }
+
+    // Fits again, with the changes as the plate would show them.
+    void measure_changes(const std::vector<Row> &rows, const Robust &fit, BlockFit &result) const {
+        constexpr std::size_t plate = nuisances + most_changes;
+        Products<plate + 1> sums;
+        std::size_t p = 0;
+        for_each([&](std::size_t i, int, int) {
+            std::array<double, plate + 1> row{};
+            std::copy_n(rows[p].begin(), nuisances, row.begin());
+            row[plate] = rows[p].back();
+            for (std::size_t c = 0; c < changes_.size(); ++c) {
+                const auto &rgb = changes_[c].rgb;
+                const double of_v = double(rgb[0][i] + rgb[1][i] + rgb[2][i]) / 3;
+                row[nuisances + c] = (fit.by[1] + 2 * fit.by[2] * row[1]) * of_v +
+                                     fit.by[5] * (double(rgb[0][i]) - of_v) +
+                                     fit.by[6] * (double(rgb[2][i]) - of_v);
+            }
+            sums.add(row, fit.weights[p++]);
+        });
+        for (std::size_t i = 0; i < nuisances; ++i) {
+            const double least = least_of(sums.of[i][i], double(rows.size()));
+            if (i >= first_tint) sums.of[i][i] += fit.ridge;
+            sums.sweep(i, least);
         }
-        return row;
+        for (std::size_t i = 0; i < most_changes; ++i) {
+            result.pull[i] = sums.of[nuisances + i][plate];
+            for (std::size_t k = 0; k < most_changes; ++k)
+                result.stiffness[i][k] = sums.of[nuisances + std::min(i, k)][nuisances + std::max(i, k)];
+        }
     }
 
     const Grey &plate_;
@@ -134,22 +201,9 @@ private:
     std::span<const Colours> changes_;
     Imath::Box2i box_;
     double middle_ = 0; // of V
-    int count_ = 0;
-    std::array<double, nuisances> by_{};
 };
 
-double floor_of(int pixels) { return pixels * MatchTuning::least_error * MatchTuning::least_error; }
-
 } // namespace
-
-double BlockFit::likelihood() const {
-    if (pixels == 0) return 0;
-    return -0.5 * pixels * std::log((left + floor_of(pixels)) / (before + floor_of(pixels)));
-}
-
-double BlockFit::noise() const {
-    return pixels == 0 ? 1 : (left + floor_of(pixels)) / double(pixels - int(nuisances));
-}
 
 std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable,
                                  const Colours &gathered, std::span<const Colours> changes) {

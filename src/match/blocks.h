@@ -16,23 +16,18 @@
 
 namespace sparselens {
 
-// How the gathered picture changes with what is searched for: the CoC at the middle depth, the size of the lens, and
-// the softness of the whole picture; then softness along x more than y, and along the diagonals, as motion has it.
+// How the gathered picture changes with the CoC at the middle depth, the CoC at the ends of the range of depths, and the
+// softness of the whole picture; then with softness along x more than y, and along the diagonals, as motion has it.
 inline constexpr std::size_t most_changes = 5;
 using Changes = std::array<double, most_changes>;
 
 struct BlockFit {
-    int pixels = 0;                                // that were compared; 0: too few
-    double before = 0;                             // sum of squares of the plate about its mean
-    double left = 0;                               // sum of squares that the fit leaves
-    double shift_x = 0, shift_y = 0;               // of the plate against the gathered picture, pixels
-    Changes pull{};                                // -1/2 the derivative of `left` by each change
+    int pixels = 0;                  // that were compared; 0: too few
+    double likelihood = 0;           // its logarithm, that this is the same picture, relative to a flat one
+    double before = 0, left = 0;     // variances of the plate: about its mean, and about the fit
+    double shift_x = 0, shift_y = 0; // of the plate against the gathered picture, pixels
+    Changes pull{};                  // -1/2 the derivative of the sum of squares by each change
     std::array<Changes, most_changes> stiffness{}; // half its second derivative
-
-    // The log likelihood that this is the same picture, relative to that of any other.
-    double likelihood() const;
-    // The variance of the plate about the fit, per pixel.
-    double noise() const;
 };
 
 // `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: [pixel], 0: not compared.

@@ -12,7 +12,7 @@ namespace sparselens {
 namespace {
 
 // The weights of a Gaussian from its middle outwards; their sum over both sides is 1. Its variance is exact also if it
-// is smaller than a pixel.
+// is smaller than a pixel, or negative, which sharpens.
 std::vector<float> gaussian(double variance) {
     if (variance < 0.5) // the weights of three pixels
         return {float(1 - variance), float(variance / 2)};
@@ -55,7 +55,7 @@ std::vector<float> softened(const std::vector<float> &values, int width, std::sp
 } // namespace
 
 Colours softened(const Colours &linear, double variance) {
-    if (!(variance > 0)) return linear;
+    if (variance == 0) return linear;
     const std::vector<float> weights = gaussian(variance);
     Colours result{linear.grid, {}};
     for (std::size_t k = 0; k < 3; ++k) result.rgb[k] = softened(linear.rgb[k], linear.grid.width(), weights);

@@ -21,8 +21,8 @@ struct Colours {
     std::array<std::vector<float>, 3> rgb; // [channel][pixel]
 };
 
-// Blurs scene-linear colours by a Gaussian of this variance, square pixels, as a soft lens or film does. Pixels beyond
-// the border repeat it.
+// Blurs scene-linear colours by a Gaussian of this variance, square pixels, as a soft lens or film does. A negative
+// variance, at least -0.4, sharpens. Pixels beyond the border repeat it.
 Colours softened(const Colours &linear, double variance);
 
 Colours tone_mapped(Colours linear);

@@ -38,8 +38,7 @@ Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, 
         const BlockFit &block = here[i];
         if (block.pixels == 0) continue;
         const auto left_share = [](const BlockFit &fit) {
-            const double flat = fit.pixels * MatchTuning::least_error * MatchTuning::least_error;
-            return fit.before > flat ? fit.left / fit.before : 1;
+            return fit.before > 0 ? fit.left / fit.before : 1;
         };
         double best_elsewhere = 1;
         for (const Fits &other : elsewhere) best_elsewhere = std::min(best_elsewhere, left_share(other[i]));

@@ -1,5 +1,6 @@
 #include "match/lens_search.h"
 
+#include "match/tone_curve.h"
 #include "match/tuning.h"
 
 #include <algorithm>
@@ -38,13 +39,13 @@ std::vector<double> cocs(const Comparison &pictures, const KnownLens &known, dou
 
 double half_range(const Comparison &pictures) { return std::max((pictures.near - pictures.far) / 2, 0.5); }
 
-Colours as_plate(const Colours &gathered, double softness) {
-    return tone_mapped(softened(gathered, softness));
+Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness) {
+    return with_curve_of(pictures.colours, pictures.usable, tone_mapped(softened(gathered, softness)));
 }
 
 double likelihood_of(const std::vector<BlockFit> &blocks) {
     double sum = 0;
-    for (const BlockFit &block : blocks) sum += block.likelihood();
+    for (const BlockFit &block : blocks) sum += block.likelihood;
     return sum;
 }
 
@@ -54,7 +55,7 @@ std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &
         for (const double coc : cocs(pictures, known, scale)) {
             const Colours linear = pictures.gather(coc, scale, false);
             for (const double softness : {0.15, 1.0}) {
-                const Colours shown = as_plate(linear, softness);
+                const Colours shown = as_plate(pictures, linear, softness);
                 scored.push_back({{coc, scale, softness},
                                   likelihood_of(fit_blocks(pictures.plate, pictures.usable, shown, {}))});
             }
@@ -77,7 +78,7 @@ std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &
 double lead(const LensFit &a, const LensFit &b) {
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < a.blocks.size(); ++i) {
-        const double more = a.blocks[i].likelihood() - b.blocks[i].likelihood();
+        const double more = a.blocks[i].likelihood - b.blocks[i].likelihood;
         sum += more;
         squares += more * more;
     }

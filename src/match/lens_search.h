@@ -6,6 +6,7 @@
 #pragma once
 
 #include "match/blocks.h"
+#include "match/colours.h"
 
 #include <functional>
 #include <optional>
@@ -21,7 +22,8 @@ struct BlurGuess {
 
 // Two pictures to compare, and the depths that they show.
 struct Comparison {
-    Grey plate;                           // tone-mapped
+    Colours colours;                      // of the plate, tone-mapped
+    Grey plate;                           // their brightness
     std::vector<std::uint8_t> usable;     // [pixel]
     double near = 0, middle = 0, far = 0; // perceptive depths for scale 1, pixels
     // The gathered picture, scene-linear; `exactly`, or quickly with more noise.
@@ -37,14 +39,19 @@ struct KnownLens {
 // Half the range of perceptive depths, at least half a pixel.
 double half_range(const Comparison &pictures);
 
-// The gathered picture as a plate of this softness shows it.
-Colours as_plate(const Colours &gathered, double softness);
+// The gathered picture as a plate of this softness shows it, with the tone curve of the plate.
+Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness);
+
+// How uncertain a fit is: the variances of its CoC and its scale, and their covariance.
+struct LensCovariance {
+    double coc = 0, both = 0, scale = 0;
+};
 
 struct LensFit {
     BlurGuess guess;
-    double likelihood = 0;                          // the sum over the blocks
-    std::array<Changes, most_changes> covariance{}; // from how much the blocks differ from each other
-    Changes motion{};                               // of the plate: the two last changes
+    double likelihood = 0;     // the sum over the blocks
+    LensCovariance covariance; // from how much the blocks differ from each other
+    Changes motion{};          // of the plate: the two last changes
     std::vector<BlockFit> blocks;
     Colours shown; // the gathered picture, softened and tone-mapped
 };
@@ -52,8 +59,9 @@ struct LensFit {
 // The guesses that a search may begin with, the best first; no two lie on one hill.
 std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &known);
 
-// Follows a guess to the nearest best fit.
-LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps);
+// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away or nearer.
+LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps,
+                    double reach_px);
 
 // The sum over the blocks.
 double likelihood_of(const std::vector<BlockFit> &blocks);

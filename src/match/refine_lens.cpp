@@ -1,3 +1,4 @@
+#include "match/equations.h"
 #include "match/lens_search.h"
 #include "match/tuning.h"
 
@@ -9,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t coc_change = 0, scale_change = 1, softness_change = 2, first_motion = 3;
+constexpr std::size_t coc_change = 0, ends_change = 1, softness_change = 2, first_motion = 3;
 
 // Keeps a guess within what lenses do: the focus is not beyond infinity, and where it is known, it stays.
 BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &known) {
@@ -17,7 +18,7 @@ BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &
                       ? *known.scale
                       : std::clamp(guess.scale, 0.05 * MatchTuning::narrowest_px / half_range(pictures),
                                    MatchTuning::widest * 1.5);
-    guess.softness = std::clamp(guess.softness, 0.0, MatchTuning::most_softness);
+    guess.softness = std::clamp(guess.softness, MatchTuning::least_softness, MatchTuning::most_softness);
     const double focus =
         known.focus ? *known.focus : std::max(pictures.middle + guess.coc / guess.scale, 0.0);
     guess.coc = guess.scale * (focus - pictures.middle);
@@ -54,65 +55,11 @@ std::pair<Colours, Colours> motion_changes(const Colours &of) {
     return {std::move(along), std::move(across)};
 }
 
-// Solves the equations of the unknowns that are free, by elimination; the others stay 0.
-using Matrix = std::array<Changes, most_changes>;
-Matrix inverse(Matrix of, const std::array<bool, most_changes> &is_free) {
-    Matrix result{};
-    for (std::size_t i = 0; i < most_changes; ++i) {
-        result[i][i] = is_free[i] ? 1 : 0;
-        for (std::size_t k = 0; k < most_changes; ++k)
-            if (!is_free[i] || !is_free[k]) of[i][k] = i == k ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < most_changes; ++i) {
-        const double pivot = std::max(of[i][i], 1e-30);
-        for (std::size_t k = 0; k < most_changes; ++k) of[i][k] /= pivot, result[i][k] /= pivot;
-        for (std::size_t j = 0; j < most_changes; ++j) {
-            if (j == i) continue;
-            const double share = of[j][i];
-            for (std::size_t k = 0; k < most_changes; ++k) {
-                of[j][k] -= share * of[i][k];
-                result[j][k] -= share * result[i][k];
-            }
-        }
-    }
-    return result;
-}
-
-Changes times(const Matrix &a, const Changes &b) {
-    Changes result{};
-    for (std::size_t i = 0; i < most_changes; ++i)
-        for (std::size_t k = 0; k < most_changes; ++k) result[i] += a[i][k] * b[k];
-    return result;
-}
-
-Matrix times(const Matrix &a, const Matrix &b) {
-    Matrix result{};
-    for (std::size_t i = 0; i < most_changes; ++i)
-        for (std::size_t j = 0; j < most_changes; ++j)
-            for (std::size_t k = 0; k < most_changes; ++k) result[i][j] += a[i][k] * b[k][j];
-    return result;
-}
-
-// The sums over all blocks, each weighed by the noise that its fit leaves.
-struct Equations {
-    Matrix stiffness{}, spread{};
-    Changes pull{};
-    int blocks = 0;
-
-    explicit Equations(const std::vector<BlockFit> &fits) {
-        for (const BlockFit &fit : fits) {
-            if (fit.pixels == 0) continue;
-            const double weight = 1 / fit.noise();
-            ++blocks;
-            for (std::size_t i = 0; i < most_changes; ++i) {
-                pull[i] += weight * fit.pull[i];
-                for (std::size_t k = 0; k < most_changes; ++k) {
-                    stiffness[i][k] += weight * fit.stiffness[i][k];
-                    spread[i][k] += weight * weight * fit.pull[i] * fit.pull[k];
-                }
-            }
-        }
-    }
+// A guess with the softness that fits best, and what it was compared with.
+struct Likely {
+    BlurGuess guess;
+    double likelihood = 0;
+    Colours linear; // gathered
 };
 
 class Refining {
@@ -120,97 +67,140 @@ public:
     Refining(const Comparison &pictures, const KnownLens &known) : pictures_(pictures), known_(known) {
         is_free_.fill(true);
         is_free_[coc_change] = !known.focus;
-        is_free_[scale_change] = !known.scale;
+        is_free_[ends_change] = !known.scale;
     }
 
-    LensFit from(BlurGuess guess, int steps) {
-        guess = allowed(guess, pictures_, known_);
-        LensFit best = fit(guess);
-        double damping = 0;
-        for (int step = 0; step < steps; ++step) {
-            const auto [next, moved] = improved(best, damping);
-            LensFit there = fit(next);
-            if (there.likelihood < best.likelihood) {
-                damping = damping == 0 ? 1 : damping * 4;
-                continue;
+    // Gauss-Newton steps. Their derivatives are differences of pictures that lie apart, and the best of all pictures
+    // counts, so the small steps that gathered pictures make, for example where the number of their lens points
+    // changes, do not stop the search.
+    LensFit from(const BlurGuess &guess, int steps, double reach) const {
+        Likely best = softest(guess);
+        Slopes slopes;
+        for (int step = 0; step < steps && reach >= MatchTuning::settled_px; ++step) {
+            const BlurGuess before = best.guess;
+            Likely better = best;
+            slopes = slopes_at(best, reach, better);
+            const Changes by = step_of(fit_at(best, slopes));
+            for (const double share : {1.0, 0.5}) {
+                const Likely there = softest(moved(before, share * by[coc_change], share * by[ends_change],
+                                                   before.softness + share * by[softness_change]));
+                keep_better(better, there);
+                if (there.likelihood > best.likelihood) break;
             }
-            damping /= 4;
-            best = std::move(there);
-            if (moved < MatchTuning::settled_px) break;
+            best = std::move(better);
+            if (distance(before, best.guess) < MatchTuning::same_reach * reach) reach /= 2;
+        }
+        return fit_at(best, slopes);
+    }
+
+private:
+    static void keep_better(Likely &best, const Likely &other) {
+        if (other.likelihood > best.likelihood) best = other;
+    }
+
+    // `x` changes the CoC at the middle depth, `y` that at the ends of the range of depths, both in pixels.
+    BlurGuess moved(BlurGuess guess, double x, double y, double softness) const {
+        guess.coc += x;
+        guess.scale = std::max(guess.scale + y / half_range(pictures_), 0.4 * guess.scale);
+        guess.softness = softness;
+        return allowed(guess, pictures_, known_);
+    }
+
+    double distance(const BlurGuess &a, const BlurGuess &b) const {
+        return std::max(std::abs(a.coc - b.coc), half_range(pictures_) * std::abs(a.scale - b.scale));
+    }
+
+    double likelihood(const Colours &linear, double softness) const {
+        return likelihood_of(
+            fit_blocks(pictures_.plate, pictures_.usable, as_plate(pictures_, linear, softness), {}));
+    }
+
+    Likely compared(BlurGuess guess) const {
+        guess = allowed(guess, pictures_, known_);
+        Likely result{guess, 0, pictures_.gather(guess.coc, guess.scale, true)};
+        result.likelihood = likelihood(result.linear, guess.softness);
+        return result;
+    }
+
+    // The same, with the softness that fits best, which needs no other gathered picture.
+    Likely softest(const BlurGuess &guess) const {
+        Likely best = compared(guess);
+        for (double step = MatchTuning::softness_step * (1 + best.guess.softness);
+             step > MatchTuning::softness_step / 4; step /= 2) {
+            const double middle = best.guess.softness;
+            for (const double by : {-step, step}) {
+                const double softness =
+                    std::clamp(middle + by, MatchTuning::least_softness, MatchTuning::most_softness);
+                const double there = likelihood(best.linear, softness);
+                if (there > best.likelihood) best.likelihood = there, best.guess.softness = softness;
+            }
         }
         return best;
     }
 
-private:
-    Colours gathered(BlurGuess guess, bool exactly = false) const {
-        guess = allowed(guess, pictures_, known_);
-        return pictures_.gather(guess.coc, guess.scale, exactly);
+    // How the picture changes with the CoC at the middle depth and at the ends.
+    struct Slopes {
+        Colours by_coc, by_ends;
+    };
+
+    // From guesses `reach` pixels away to both sides. `better`: the best of all that were compared.
+    Slopes slopes_at(const Likely &at, double reach, Likely &better) const {
+        const auto slope = [&](double x, double y) {
+            const Likely more = compared(moved(at.guess, x, y, at.guess.softness)),
+                         less = compared(moved(at.guess, -x, -y, at.guess.softness));
+            keep_better(better, more);
+            keep_better(better, less);
+            const double apart = x != 0 ? more.guess.coc - less.guess.coc
+                                        : (more.guess.scale - less.guess.scale) * half_range(pictures_);
+            return difference(as_plate(pictures_, more.linear, at.guess.softness),
+                              as_plate(pictures_, less.linear, at.guess.softness), std::max(apart, 1e-6));
+        };
+        Slopes slopes{of_size(at.linear.grid), of_size(at.linear.grid)};
+        if (is_free_[coc_change]) slopes.by_coc = slope(reach, 0);
+        if (is_free_[ends_change]) slopes.by_ends = slope(0, reach);
+        return slopes;
     }
 
-    // The pictures at a guess, and their derivatives.
-    LensFit fit(const BlurGuess &guess) {
+    LensFit fit_at(const Likely &at, const Slopes &slopes) const {
         LensFit result;
-        result.guess = guess;
-        const Colours linear = gathered(guess, true);
-        result.shown = as_plate(linear, guess.softness);
-        std::vector<Colours> changes(most_changes, of_size(linear.grid));
-        const auto change = [&](double BlurGuess::*value, double step) {
-            BlurGuess more = guess, less = guess;
-            more.*value += step;
-            less.*value = value == &BlurGuess::scale ? std::max(less.*value - step, 0.25 * less.*value)
-                                                     : less.*value - step;
-            return difference(as_plate(gathered(more), guess.softness),
-                              as_plate(gathered(less), guess.softness), more.*value - less.*value);
-        };
-        if (is_free_[coc_change]) changes[coc_change] = change(&BlurGuess::coc, MatchTuning::derivative_px);
-        if (is_free_[scale_change])
-            changes[scale_change] =
-                change(&BlurGuess::scale, MatchTuning::derivative_px / half_range(pictures_));
-        const double less = std::max(guess.softness - MatchTuning::softness_step, 0.0),
-                     more = guess.softness + MatchTuning::softness_step;
-        changes[softness_change] = difference(as_plate(linear, more), as_plate(linear, less), more - less);
+        result.guess = at.guess;
+        const double softness = at.guess.softness;
+        result.shown = as_plate(pictures_, at.linear, softness);
+        const double less = std::max(softness - MatchTuning::softness_step, MatchTuning::least_softness),
+                     more = softness + MatchTuning::softness_step;
         auto [along, across] = motion_changes(result.shown);
-        changes[first_motion] = std::move(along);
-        changes[first_motion + 1] = std::move(across);
+        const std::vector<Colours> changes{slopes.by_coc, slopes.by_ends,
+                                           difference(as_plate(pictures_, at.linear, more),
+                                                      as_plate(pictures_, at.linear, less), more - less),
+                                           std::move(along), std::move(across)};
         result.blocks = fit_blocks(pictures_.plate, pictures_.usable, result.shown, changes);
         result.likelihood = likelihood_of(result.blocks);
         find_spread(result);
         return result;
     }
 
-    void find_spread(LensFit &of) const {
-        const Equations sums(of.blocks);
-        auto with_motion = inverse(sums.stiffness, is_free_);
-        const Changes all = times(with_motion, sums.pull);
-        of.motion = all;
-        auto lens_only = is_free_;
-        lens_only[first_motion] = lens_only[first_motion + 1] = false;
-        const Matrix known = inverse(sums.stiffness, lens_only);
-        of.covariance = times(times(known, sums.spread), known);
-        const double few = sums.blocks > 4 ? double(sums.blocks) / (sums.blocks - 3) : 4;
-        for (Changes &row : of.covariance)
-            for (double &v : row) v *= few;
+    // All but motion, which no lens makes.
+    Solution lens_of(const LensFit &fit) const {
+        auto is_free = is_free_;
+        is_free[first_motion] = is_free[first_motion + 1] = false;
+        return solve_blocks(fit.blocks, is_free);
     }
 
-    // The next guess, and how far the CoC moves.
-    std::pair<BlurGuess, double> improved(const LensFit &at, double damping) const {
-        Equations sums(at.blocks);
-        auto lens_only = is_free_;
-        lens_only[first_motion] = lens_only[first_motion + 1] = false;
-        for (std::size_t i = 0; i < most_changes; ++i) sums.stiffness[i][i] *= 1 + damping + 1e-6;
-        Changes step = times(inverse(sums.stiffness, lens_only), sums.pull);
-        const double range = half_range(pictures_);
-        const auto reach = [&] {
-            return std::max({std::abs(step[coc_change]), std::abs(step[scale_change]) * range,
-                             std::abs(step[softness_change])});
-        };
-        if (const double far = reach(); far > MatchTuning::largest_step_px)
-            for (double &v : step) v *= MatchTuning::largest_step_px / far;
-        BlurGuess next = at.guess;
-        next.coc += step[coc_change];
-        next.scale = std::max(next.scale + step[scale_change], 0.4 * next.scale);
-        next.softness += step[softness_change];
-        return {allowed(next, pictures_, known_), reach()};
+    Changes step_of(const LensFit &fit) const {
+        Changes by = lens_of(fit).by;
+        const double far =
+            std::max(std::abs(by[coc_change]), std::abs(by[ends_change])) / MatchTuning::farthest_px;
+        if (far > 1)
+            for (double &v : by) v /= far;
+        return by;
+    }
+
+    void find_spread(LensFit &of) const {
+        of.motion = solve_blocks(of.blocks, is_free_).by;
+        const Matrix spread = lens_of(of).covariance;
+        const double per_end = 1 / half_range(pictures_);
+        of.covariance = {spread[coc_change][coc_change], per_end * spread[coc_change][ends_change],
+                         per_end * per_end * spread[ends_change][ends_change]};
     }
 
     const Comparison &pictures_;
@@ -220,8 +210,9 @@ private:
 
 } // namespace
 
-LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps) {
-    return Refining(pictures, known).from(guess, steps);
+LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps,
+                    double reach_px) {
+    return Refining(pictures, known).from(guess, steps, reach_px);
 }
 
 } // namespace sparselens

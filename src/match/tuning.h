@@ -12,6 +12,20 @@ struct MatchTuning {
     static constexpr double least_share = 0.6;
     // The plate's values are rounded and compressed: a fit is never better than this, rms of tone-mapped values.
     static constexpr double least_error = 0.001;
+    // Pixels of about one value make a point of the tone curve: values in [0, 1) are divided into so many.
+    static constexpr int curve_points = 128;
+    // A block counts for the tone curve if its error is at most so many times that of most blocks.
+    static constexpr double alike = 2;
+    // The errors of a fit have the tails of Student's t distribution with so many degrees of freedom; how often it is
+    // fitted.
+    static constexpr double tails = 4;
+    static constexpr int robust_fits = 4;
+
+    // A plate clips its highlights if most of its bright pixels, relative to the largest value, are among the brightest.
+    // Clipped lamps with grain of 0.03 have 66 % there, other pictures 10 to 20 %.
+    // Pixels this near to them are not compared, compared pixels.
+    static constexpr double bright = 0.95, brightest = 0.99, clipped_share = 0.4;
+    static constexpr int beside_clipped = 2;
 
     // A block shows something if a fit, in some place, explains this share of its variance.
     static constexpr double explained = 0.3;
@@ -25,18 +39,29 @@ struct MatchTuning {
     // match in 7 to 17 %, plates of the shot with an actor over a third of them in 26 % and more.
     static constexpr int least_textured = 6;
     static constexpr double least_matched = 0.22;
-    // The least variance of blur by motion, square pixels of the compared pictures. Motion over 9 pixels has 6.
-    static constexpr double motion_variance = 3;
+    // The least variance of blur by motion, square pixels of the compared pictures. Plates that stand still have up to
+    // 0.2, plates that move by 7 to 11 pixels 0.6 to 2.9.
+    static constexpr double motion_variance = 0.6;
     // A picture whose circles of confusion are all smaller is in focus, pixels of the plate.
     static constexpr double all_in_focus_px = 0.75;
     // The widest interval, to each side, that is a result: pixels of CoC and stops.
     static constexpr double widest_coc_px = 1.5, widest_stops = 0.6;
     // Two guesses that are this far apart, pixels of CoC, must differ in likelihood by as many standard deviations.
     static constexpr double apart_px = 1.5, least_lead = 1.5;
+    // A guess of the search that is worse by so many deviations is wrong.
+    static constexpr double certain_lead = 5;
     // Besides the spread of the blocks: by how much neighbouring blocks, which are not independent, widen the
     // deviation; and the error of gathered pictures, in compared pixels of CoC and as a share of the radius. On plates
     // without grain, grade and softness the radius is 0 to 6 % too small, the more the less blur there is.
     static constexpr double joint_blocks = 2, gather_coc_px = 0.1, gather_share = 0.03;
+
+    // The shape of the lens (shape_search.h): the squeezes of anamorphic lenses; blades; how many rotations of each
+    // number of blades, and the finest turn, degrees; steps of each refinement; by how many deviations a shape must fit
+    // better than a simpler one; the least CoC of the plate that shows a shape, and the CoC to which it is reduced,
+    // pixels.
+    static constexpr std::array<double, 6> squeezes{1.25, 1.33, 1.5, 1.65, 1.8, 2};
+    static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_steps = 4;
+    static constexpr double finest_turn = 1.5, shape_lead = 3, least_shape_px = 6, shape_px = 8;
 
     // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight;
     // the mean squared distance of values from the curve, in deviations; values farther away count less.
@@ -50,17 +75,18 @@ struct MatchTuning {
     static constexpr double search_step = 1.25, search_share = 0.1;
     // The widest lens of the search, relative to the LDI's; the narrowest blurs by this many reduced pixels.
     static constexpr double widest = 1.3, narrowest_px = 0.5;
-    // Lens points of the gathered pictures: for the search, and for the derivatives of the final fit, whose picture
-    // has final quality. A draft's noise would pass for softness and make the lens 2 to 5 % smaller.
-    static constexpr int search_points = 32, refine_points = 64, derivative_points = 64;
+    // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit has final quality: a
+    // draft's noise would pass for softness and make the lens 2 to 5 % smaller.
+    static constexpr int search_points = 32, refine_points = 64;
     // How many of the best guesses are refined, and how often.
-    static constexpr int refined_guesses = 3, search_steps = 6, final_steps = 9, next_frame_steps = 4;
-    // Changes of the CoC for which derivatives are computed, and the largest step, pixels.
-    static constexpr double derivative_px = 0.5, largest_step_px = 2;
-    // The step of the softness's variance for its derivative, and its range, square pixels.
-    static constexpr double softness_step = 0.2, most_softness = 9;
-    // The fit is over when the CoC moves by less, pixels.
-    static constexpr double settled_px = 0.04;
+    static constexpr int refined_guesses = 3, search_steps = 2, final_steps = 4, next_frame_steps = 2;
+    // How far from the best guess others are compared, pixels of CoC: in the search and in the final fit; the fit is over
+    // where it is less than the last. It halves when a step is shorter than this share of it. The longest step.
+    static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, settled_px = 0.3, same_reach = 0.75,
+                            farthest_px = 3;
+    // The step of the softness's variance for its derivative, and its range, square pixels. It is negative where a plate
+    // is sharper than the gathered picture, which the warp of the views softens a little.
+    static constexpr double softness_step = 0.2, least_softness = -0.4, most_softness = 9;
 };
 
 } // namespace sparselens

@@ -49,7 +49,8 @@ inline Colours blurred_waves(int width, int height, double coc, double scale) {
 inline Comparison slope_before(const Colours &plate) {
     const int width = plate.grid.width(), height = plate.grid.height();
     Comparison pictures;
-    pictures.plate = brightness(tone_mapped(plate));
+    pictures.colours = tone_mapped(plate);
+    pictures.plate = brightness(pictures.colours);
     pictures.usable = all_usable(plate.grid);
     pictures.near = 12;
     pictures.middle = 7;

@@ -20,10 +20,10 @@ value() { grep -A1 "\"$1\": {" stdout | grep -o '"value": [0-9.]*' | cut -d' ' -
 holds() { awk "BEGIN { exit !($(value "$1") >= $2 && $(value "$1") <= $3) }" || fail "$1 is $(value "$1"), not $2 to $3"; }
 
 # R F is 25.6 pixels: at 3 units, the perceptive depth is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
-plate plate.exr 3 0.11
+plate plate.exr 3 0.14
 exits 0 "$match" ldi.exr plate.exr --json -o keys.json --show fit.png --stats stats.json
 holds focus_distance 2.8 3.25
-holds lens_radius 0.1045 0.116
+holds lens_radius 0.133 0.147
 grep -q '"tool":"dof-match"' stats.json || fail "--stats: $(cat stats.json)"
 oiiotool --info fit.png | grep -q ' 320 x *90,' || fail "--show: $(oiiotool --info fit.png)"
 radius=$(value lens_radius)
@@ -31,10 +31,10 @@ radius=$(value lens_radius)
 # One value may be known.
 exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3
 holds focus_distance 3 3
-holds lens_radius 0.1045 0.116
-exits 0 "$match" ldi.exr plate.exr --json --fit focus --lens-radius 0.11
+holds lens_radius 0.133 0.147
+exits 0 "$match" ldi.exr plate.exr --json --fit focus --lens-radius 0.14
 holds focus_distance 2.8 3.25
-holds lens_radius 0.11 0.11
+holds lens_radius 0.14 0.14
 exits 0 "$match" ldi.exr plate.exr --region 40,10,100,70
 grep -q '^ *frame  focus distance' stdout || fail "the table: $(cat stdout)"
 
@@ -43,18 +43,18 @@ holds fstop 0.17 0.17
 
 # The camera: with twice the focal length in pixels, half the lens blurs as much.
 exits 0 "$match" ldi.exr plate.exr --json --focal-length 72 --lens-radius 0.08
-holds lens_radius 0.052 0.058
+holds lens_radius 0.0665 0.0735
 exits 0 "$match" ldi.exr plate.exr --json --sensor-width 18 --lens-radius 0.08
-holds lens_radius 0.052 0.058
+holds lens_radius 0.0665 0.0735
 exits 0 "$match" ldi.exr plate.exr --json --scene-unit 0.1 --focus-distance 3 --lens-radius 0.16
-holds fstop 1.55 1.72
+holds fstop 1.22 1.35
 
 # From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
 exits 0 "$match" fence/center.exr plate.exr --json
 holds focus_distance 2.8 3.25
-holds lens_radius 0.1045 0.116
+holds lens_radius 0.126 0.147 # one view does not know what is hidden
 by_depth() { # by_depth FLAT OPTIONS...: the focus is that of planar depth.
-    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.11 "${@:2}"
+    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.14 "${@:2}"
     holds focus_distance "$least" "$most"
 }
 least=2.8 most=3.25 by_depth fence/center.exr

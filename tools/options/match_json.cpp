@@ -16,6 +16,10 @@ Json as_json(const MatchedValue &v) {
 
 Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
+Json as_json(const MatchedShape &shape) {
+    return {{"blades", shape.blades}, {"blade_rotation", shape.rotation}, {"squeeze", shape.squeeze}};
+}
+
 Json as_json(const MatchedLens &lens) {
     Json line{{"focus_distance", as_json(lens.focus_distance)}, {"lens_radius", as_json(lens.lens_radius)}};
     if (lens.fstop) line["fstop"] = as_json(*lens.fstop);

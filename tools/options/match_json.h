@@ -2,12 +2,14 @@
 #pragma once
 
 #include "chain/match_lens.h"
+#include "chain/match_shape.h"
 
 #include <nlohmann/json.hpp>
 
 namespace sparselens {
 
 nlohmann::ordered_json as_json(const MatchedLens &lens);
+nlohmann::ordered_json as_json(const MatchedShape &shape);
 
 // A number that JSON can hold, else "inf".
 nlohmann::ordered_json finite_json(double value);

@@ -80,6 +80,8 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
                    "What to find; the other value is that of the file or of an option (default: both)")
         ->type_name("both|focus|fstop")
         ->transform(words(fits));
+    app.add_flag("--shape", options.shape,
+                 "Also find the blades and the squeeze of the lens, from lamps that are out of focus");
     add_parameters(app, lens_parameters(), options.lens);
     add_parameters(app, depth_parameters(), options.depth);
     add_examples(app, {{"Find the lens of a filmed rack of focus",

@@ -11,7 +11,7 @@ namespace sparselens {
 
 struct MatchCommand : LdiRequest { // with the options that say how to read the LDI
     std::string plate, output, show, frames, stats;
-    bool json = false;
+    bool json = false, shape = false;
     MatchRequest match;
 };
 
