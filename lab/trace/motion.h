@@ -46,9 +46,8 @@ struct Exposure {
 
     bool instant() const { return opens == closes; }
     double middle() const { return at(0.5); }
-    double at(double share) const {
-        return opens + share * (closes - opens);
-    } // of the time that it is open, [0, 1]
+    // `share`: of the time that it is open, [0, 1].
+    double at(double share) const { return opens + share * (closes - opens); }
 };
 
 inline constexpr Exposure whole_shutter{0, 1};

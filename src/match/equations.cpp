@@ -6,7 +6,7 @@ namespace sparselens {
 
 namespace {
 
-// Of the unknowns that are free, by elimination; the others stay 0.
+// The inverse for the unknowns that are free, by elimination; the others stay 0.
 Matrix inverse(Matrix of, const std::array<bool, most_changes> &is_free) {
     Matrix result{};
     for (std::size_t i = 0; i < most_changes; ++i) {
