@@ -38,12 +38,8 @@ double distance(const Comparison &pictures, const BlurGuess &a, const BlurGuess 
     return std::abs(a.coc - b.coc) + std::abs(a.scale - b.scale) * (pictures.near - pictures.far) / 2;
 }
 
-// The guesses of the search that may be right, the best first, each on a hill of its own.
-std::vector<LensFit> search(const Comparison &pictures, const KnownLens &known) {
-    std::vector<LensFit> fits;
-    for (const BlurGuess &guess : search_lens(pictures, known))
-        fits.push_back(
-            refine_lens(pictures, known, guess, MatchTuning::search_steps, MatchTuning::search_reach_px));
+// The fits that may be right, the best first, each on a hill of its own.
+std::vector<LensFit> hills_of(const Comparison &pictures, std::vector<LensFit> fits) {
     std::ranges::stable_sort(fits, std::greater(), &LensFit::likelihood);
     std::vector<LensFit> hills;
     for (LensFit &fit : fits) {
@@ -55,6 +51,20 @@ std::vector<LensFit> search(const Comparison &pictures, const KnownLens &known) 
         hills.push_back(std::move(fit));
     }
     return hills;
+}
+
+std::vector<LensFit> refined(const Comparison &pictures, const KnownLens &known,
+                             const std::vector<BlurGuess> &guesses, int steps, double reach_px) {
+    std::vector<LensFit> fits;
+    for (const BlurGuess &guess : guesses)
+        fits.push_back(refine_lens(pictures, known, guess, steps, reach_px));
+    return hills_of(pictures, std::move(fits));
+}
+
+std::vector<BlurGuess> guesses_of(const std::vector<LensFit> &fits) {
+    std::vector<BlurGuess> guesses;
+    for (const LensFit &fit : fits) guesses.push_back(fit.guess);
+    return guesses;
 }
 
 // The guess for pictures that are `ratio` times larger.
@@ -78,16 +88,20 @@ Found best_fit(const Match &match, const Reduced &fine, bool highlights) {
                             MatchTuning::final_reach_px)};
     const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false,
                         highlights);
-    std::vector<LensFit> fits;
-    for (const LensFit &hill : search(small.pictures, known_lens(match, small)))
-        fits.push_back(refine_lens(fine.pictures, known, enlarged(hill.guess, double(small.by()) / fine.by()),
-                                   MatchTuning::final_steps, MatchTuning::final_reach_px));
-    const auto best = std::ranges::max_element(fits, {}, &LensFit::likelihood);
+    const KnownLens known_small = known_lens(match, small);
+    std::vector<BlurGuess> guesses =
+        guesses_of(refined(small.pictures, known_small, search_lens(small.pictures, known_small),
+                           MatchTuning::search_steps, MatchTuning::search_reach_px));
+    for (BlurGuess &guess : guesses) guess = enlarged(guess, double(small.by()) / fine.by());
+    // One step shows which of them are worth more.
+    const double reach = MatchTuning::final_reach_px;
+    guesses = guesses_of(refined(fine.pictures, known, guesses, 1, reach));
+    std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_steps, reach);
     const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
-        return distance(fine.pictures, best->guess, other.guess) > MatchTuning::apart_px &&
-               lead(*best, other) < MatchTuning::least_lead;
+        return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
+               lead(fits.front(), other) < MatchTuning::least_lead;
     });
-    return {std::move(*best), is_ambiguous};
+    return {std::move(fits.front()), is_ambiguous};
 }
 
 struct Attempt {

@@ -79,7 +79,7 @@ struct MatchTuning {
     // draft's noise would pass for softness and make the lens 2 to 5 % smaller.
     static constexpr int search_points = 32, refine_points = 64;
     // How many of the best guesses are refined, and how often.
-    static constexpr int refined_guesses = 3, search_steps = 2, final_steps = 4, next_frame_steps = 2;
+    static constexpr int refined_guesses = 3, search_steps = 2, final_steps = 3, next_frame_steps = 2;
     // How far from the best guess others are compared, pixels of CoC: in the search and in the final fit; the fit is over
     // where it is less than the last. It halves when a step is shorter than this share of it. The longest step.
     static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, settled_px = 0.3, same_reach = 0.75,
