@@ -116,7 +116,7 @@ $gone"; fi
 
 # NAME and the struct's name, for all members.
 members=$(for file in src/lens/lamp.h $(sed -E 's|([a-z]+)|src/\1/tuning.h|g' <<<"$stages"); do
-    struct=$(sed -nE 's/^struct ([A-Za-z]+) \{/\1/p' "$file")
+    struct=$(sed -nE 's/^struct ([A-Za-z]+Tuning) \{/\1/p' "$file")
     sed -nE "s/^ +static constexpr [a-z:_0-9<>, ]+ ([a-z_0-9]+)( = |\{).*/\1 $struct/p" "$file"
 done)
 [ "$(wc -l <<<"$members")" -ge 10 ] || fault "the members of tuning.h were not found"
