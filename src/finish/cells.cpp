@@ -1,6 +1,6 @@
 #include "finish/cells.h"
 
-#include "finish/for_processors.h"
+#include "base/for_processors.h"
 
 #include <bit>
 #include <cassert>

@@ -1,7 +1,7 @@
 #include "finish/evidence.h"
 
+#include "base/for_processors.h"
 #include "base/parallel.h"
-#include "finish/for_processors.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,7 @@
 #include "finish/similar_pixels.h"
 
+#include "base/for_processors.h"
 #include "base/parallel.h"
-#include "finish/for_processors.h"
 #include "finish/regression.h"
 #include "finish/tuning.h"
 

@@ -1,8 +1,8 @@
 #include "finish/trust.h"
 
+#include "base/for_processors.h"
 #include "base/parallel.h"
 #include "finish/classes.h"
-#include "finish/for_processors.h"
 #include "finish/shares.h"
 #include "finish/window_means.h"
 

@@ -1,5 +1,6 @@
 #include "dof/facets/placed_facets.h"
 
+#include "base/for_processors.h"
 #include "base/parallel.h"
 #include "kernels/lens_rules.h"
 
@@ -77,10 +78,9 @@ struct Corners {
 };
 
 // Facets that reach no cell, or that their samples cover, are not drawn.
-#ifndef __SANITIZE_THREAD__
-[[gnu::target_clones("default,avx2")]]
-#endif
-void project(const Corners &corners, const LensSample &lens, const FacetGrid &grid, std::size_t count, Seen &seen) {
+FOR_PROCESSORS
+void project(const Corners &corners, const LensSample &lens, const FacetGrid &grid, std::size_t count,
+             Seen &seen) {
     const float lens_x = lens.x, lens_y = lens.y, corner_x = grid.corner_x, corner_y = grid.corner_y;
     const float shift_x = lens.pixel_x + kernels::shift_of_facets,
                 shift_y = lens.pixel_y + kernels::shift_of_facets;

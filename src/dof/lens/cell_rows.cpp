@@ -1,17 +1,10 @@
 #include "dof/lens/cell_rows.h"
 
+#include "base/for_processors.h"
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
 #include <array>
-
-// These loops run over all cells for each lens point, so they are compiled for several processors. Not under
-// ThreadSanitizer, because the loader chooses among the versions before ThreadSanitizer has begun.
-#ifdef __SANITIZE_THREAD__
-#define FOR_PROCESSORS
-#else
-#define FOR_PROCESSORS [[gnu::target_clones("default,avx2")]]
-#endif
 
 namespace sparselens {
 

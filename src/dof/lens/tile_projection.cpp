@@ -1,5 +1,6 @@
 #include "dof/lens/tile_projection.h"
 
+#include "base/for_processors.h"
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
@@ -14,11 +15,9 @@ constexpr float rounding = 1.0f / 64; // pixels: more than any position is off
 // Along one axis: clears the entries of blocks that the lens point cannot move into [from, to), given that their
 // samples lie between `least` and `most`, and their CoCs between those two. An entry stays where an infinite CoC times
 // 0 says nothing.
-#ifndef __SANITIZE_THREAD__
-[[gnu::target_clones("default,avx2")]]
-#endif
-void find_reached(const float *least, const float *most, const float *coc_of_least, const float *coc_of_most, std::size_t count,
-                  float lens, float from, float to, std::int32_t *in_reach) {
+FOR_PROCESSORS
+void find_reached(const float *least, const float *most, const float *coc_of_least, const float *coc_of_most,
+                  std::size_t count, float lens, float from, float to, std::int32_t *in_reach) {
     for (std::size_t i = 0; i < count; ++i)
         in_reach[i] &= !(most[i] + coc_of_most[i] * lens < from) & !(least[i] + coc_of_least[i] * lens >= to);
 }
@@ -30,13 +29,10 @@ TileProjection::TileProjection(const LensSample &lens, float corner_x, float cor
       shift_x(lens.pixel_x + kernels::shift_of_samples), shift_y(lens.pixel_y + kernels::shift_of_samples),
       stride(row) {}
 
-// Compiled for several instruction sets, because this loop is most of the gather's work. All versions give the same
-// results. Not under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has begun.
-#ifndef __SANITIZE_THREAD__
-[[gnu::target_clones("default,avx2")]]
-#endif
-void project_to_cells(const TileProjection &p, const float *x, const float *y, const float *coc, std::uint32_t count,
-           std::int32_t *cells) {
+// This loop is most of the gather's work.
+FOR_PROCESSORS
+void project_to_cells(const TileProjection &p, const float *x, const float *y, const float *coc,
+                      std::uint32_t count, std::int32_t *cells) {
     const int stride = p.stride; // local copies rule out aliasing
     const float limit = float(stride - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
