@@ -50,6 +50,21 @@ TEST(FitBlocks, the_shift_of_the_plate_is_found) {
     EXPECT_NEAR(block.shift_y, -0.1, 0.02);
 }
 
+// A lamp that shines through a gap of the LDI, say.
+TEST(FitBlocks, a_few_wrong_pixels_hardly_count) {
+    const auto wave = [](double x, double y) {
+        return 0.5 + 0.2 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y);
+    };
+    const Colours shown = test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x, y); });
+    Grey plate = brightness(
+        test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x - 0.2, y + 0.1); }));
+    for (const int x : {3, 4, 5, 6})
+        for (const int y : {2, 3, 4}) plate.values[plate.grid.index(x, y)] = 1;
+    const BlockFit block = fit_blocks(plate, test::all_usable(plate.grid), shown, {}).front();
+    EXPECT_NEAR(block.shift_x, 0.2, 0.05);
+    EXPECT_NEAR(block.shift_y, -0.1, 0.05);
+}
+
 // The pull over the stiffness is the amount of the change that the plate has.
 TEST(FitBlocks, a_change_is_measured) {
     const Colours shown = test::waves(16, 16);
