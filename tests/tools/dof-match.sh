@@ -97,6 +97,14 @@ exits 0 "$match" ldi.exr "rack.####.exr" --frames 2-3
 [ "$(wc -l <stdout)" -eq 3 ] || fail "--frames: $(cat stdout)"
 grep -q 'warning: rack.0002.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
 
+# The discs of lamps show the blades.
+exits 0 "$bin/dof-trace" lamps --size 480x270 --spp 8 --lens-radius 0.16 -o lamps
+exits 0 "$bin/ldi-warp" lamps/center.exr lamps/view_{0..3}.exr -o lamps.ldi.exr
+exits 0 "$bin/dof-gather" lamps.ldi.exr --focus-distance 2.5 --blades 6 --blade-rotation 17 -o blades.exr
+exits 0 "$match" lamps.ldi.exr blades.exr --shape --fit fstop --focus-distance 2.5 -o blades.json
+grep -qE '^--blades 6 --blade-rotation 1[678] --squeeze 1.00$' stdout || fail "--shape: $(cat stdout)"
+exits 0 "$bin/dof-gather" lamps.ldi.exr --frames 1 --blades @blades.json --blade-rotation @blades.json -o again.####.exr
+
 # Plates that cannot be matched say why.
 picture edit plate.exr black.exr R=0 G=0 B=0
 fails_saying 1 'black.exr: .*shows nothing to compare' "$match" ldi.exr black.exr
