@@ -4,24 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <limits>
 
 namespace sparselens {
 
 namespace {
 
-template <typename IsUsable>
-std::vector<float> values_of(const std::vector<float> &plane, const IsUsable &is_usable) {
-    std::vector<float> values;
-    for (std::size_t i = 0; i < plane.size(); ++i)
-        if (is_usable(i) && std::isfinite(plane[i])) values.push_back(plane[i]);
-    return values;
-}
-
 // The value from which pixels count as clipped; infinite: none is.
 float clipped_from(const std::vector<float> &plane) {
-    const std::vector<float> values = values_of(plane, [](std::size_t) { return true; });
+    std::vector<float> values;
+    std::ranges::copy_if(plane, std::back_inserter(values), [](float v) { return std::isfinite(v); });
     constexpr float none = std::numeric_limits<float>::infinity();
     if (values.empty()) return none;
     const double largest = double(*std::ranges::max_element(values));

@@ -59,7 +59,8 @@ struct LensFit {
 // The guesses that a search may begin with, the best first; no two lie on one hill.
 std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &known);
 
-// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away or nearer.
+// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away or nearer, in
+// at least one step.
 LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps,
                     double reach_px);
 

@@ -55,11 +55,11 @@ std::pair<Colours, Colours> motion_changes(const Colours &of) {
     return {std::move(along), std::move(across)};
 }
 
-// A guess with the softness that fits best, and what it was compared with.
+// A guess and its pictures: as gathered, and as the plate shows them.
 struct Likely {
     BlurGuess guess;
     double likelihood = 0;
-    Colours linear; // gathered
+    Colours linear, shown;
 };
 
 class Refining {
@@ -80,7 +80,7 @@ public:
             const BlurGuess before = best.guess;
             Likely better = best;
             slopes = slopes_at(best, reach, better);
-            const Changes by = step_of(fit_at(best, slopes));
+            const Changes by = step_of(blocks_at(best, slopes));
             for (const double share : {1.0, 0.5}) {
                 const Likely there = softest(moved(before, share * by[coc_change], share * by[ends_change],
                                                    before.softness + share * by[softness_change]));
@@ -110,15 +110,15 @@ private:
         return std::max(std::abs(a.coc - b.coc), half_range(pictures_) * std::abs(a.scale - b.scale));
     }
 
-    double likelihood(const Colours &linear, double softness) const {
-        return likelihood_of(
-            fit_blocks(pictures_.plate, pictures_.usable, as_plate(pictures_, linear, softness), {}));
+    double likelihood(const Colours &shown) const {
+        return likelihood_of(fit_blocks(pictures_.plate, pictures_.usable, shown, {}));
     }
 
     Likely compared(BlurGuess guess) const {
         guess = allowed(guess, pictures_, known_);
-        Likely result{guess, 0, pictures_.gather(guess.coc, guess.scale, true)};
-        result.likelihood = likelihood(result.linear, guess.softness);
+        Likely result{guess, 0, pictures_.gather(guess.coc, guess.scale, true), {}};
+        result.shown = as_plate(pictures_, result.linear, guess.softness);
+        result.likelihood = likelihood(result.shown);
         return result;
     }
 
@@ -131,8 +131,12 @@ private:
             for (const double by : {-step, step}) {
                 const double softness =
                     std::clamp(middle + by, MatchTuning::least_softness, MatchTuning::most_softness);
-                const double there = likelihood(best.linear, softness);
-                if (there > best.likelihood) best.likelihood = there, best.guess.softness = softness;
+                Colours shown = as_plate(pictures_, best.linear, softness);
+                const double there = likelihood(shown);
+                if (there <= best.likelihood) continue;
+                best.likelihood = there;
+                best.guess.softness = softness;
+                best.shown = std::move(shown);
             }
         }
         return best;
@@ -152,8 +156,7 @@ private:
             keep_better(better, less);
             const double apart = x != 0 ? more.guess.coc - less.guess.coc
                                         : (more.guess.scale - less.guess.scale) * half_range(pictures_);
-            return difference(as_plate(pictures_, more.linear, at.guess.softness),
-                              as_plate(pictures_, less.linear, at.guess.softness), std::max(apart, 1e-6));
+            return difference(more.shown, less.shown, std::max(apart, 1e-6));
         };
         Slopes slopes{of_size(at.linear.grid), of_size(at.linear.grid)};
         if (is_free_[coc_change]) slopes.by_coc = slope(reach, 0);
@@ -161,33 +164,27 @@ private:
         return slopes;
     }
 
-    LensFit fit_at(const Likely &at, const Slopes &slopes) const {
-        LensFit result;
-        result.guess = at.guess;
+    std::vector<BlockFit> blocks_at(const Likely &at, const Slopes &slopes) const {
         const double softness = at.guess.softness;
-        result.shown = as_plate(pictures_, at.linear, softness);
         const double less = std::max(softness - MatchTuning::softness_step, MatchTuning::least_softness),
                      more = softness + MatchTuning::softness_step;
-        auto [along, across] = motion_changes(result.shown);
+        auto [along, across] = motion_changes(at.shown);
         const std::vector<Colours> changes{slopes.by_coc, slopes.by_ends,
                                            difference(as_plate(pictures_, at.linear, more),
                                                       as_plate(pictures_, at.linear, less), more - less),
                                            std::move(along), std::move(across)};
-        result.blocks = fit_blocks(pictures_.plate, pictures_.usable, result.shown, changes);
-        result.likelihood = likelihood_of(result.blocks);
-        find_spread(result);
-        return result;
+        return fit_blocks(pictures_.plate, pictures_.usable, at.shown, changes);
     }
 
     // All but motion, which no lens makes.
-    Solution lens_of(const LensFit &fit) const {
+    Solution lens_of(const std::vector<BlockFit> &blocks) const {
         auto is_free = is_free_;
         is_free[first_motion] = is_free[first_motion + 1] = false;
-        return solve_blocks(fit.blocks, is_free);
+        return solve_blocks(blocks, is_free);
     }
 
-    Changes step_of(const LensFit &fit) const {
-        Changes by = lens_of(fit).by;
+    Changes step_of(const std::vector<BlockFit> &blocks) const {
+        Changes by = lens_of(blocks).by;
         const double far =
             std::max(std::abs(by[coc_change]), std::abs(by[ends_change])) / MatchTuning::farthest_px;
         if (far > 1)
@@ -195,12 +192,18 @@ private:
         return by;
     }
 
-    void find_spread(LensFit &of) const {
-        of.motion = solve_blocks(of.blocks, is_free_).by;
-        const Matrix spread = lens_of(of).covariance;
+    LensFit fit_at(const Likely &at, const Slopes &slopes) const {
+        LensFit fit;
+        fit.guess = at.guess;
+        fit.shown = at.shown;
+        fit.blocks = blocks_at(at, slopes);
+        fit.likelihood = likelihood_of(fit.blocks);
+        fit.motion = solve_blocks(fit.blocks, is_free_).by;
+        const Matrix spread = lens_of(fit.blocks).covariance;
         const double per_end = 1 / half_range(pictures_);
-        of.covariance = {spread[coc_change][coc_change], per_end * spread[coc_change][ends_change],
-                         per_end * per_end * spread[ends_change][ends_change]};
+        fit.covariance = {spread[coc_change][coc_change], per_end * spread[coc_change][ends_change],
+                          per_end * per_end * spread[ends_change][ends_change]};
+        return fit;
     }
 
     const Comparison &pictures_;

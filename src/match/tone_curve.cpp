@@ -1,5 +1,6 @@
 #include "match/tone_curve.h"
 
+#include "base/median.h"
 #include "match/tuning.h"
 
 #include <algorithm>
@@ -16,13 +17,6 @@ namespace {
 struct Point {
     double pixels = 0, from = 0, to = 0;
 };
-
-template <typename Value>
-Value median(std::vector<Value> &values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 // How many pixels have each value of the plate, for some pixels of about one value of the shown picture.
 using Counts = std::array<int, 4 * MatchTuning::curve_points>;
@@ -64,7 +58,7 @@ void for_each_pixel(const Grid &grid, const Imath::Box2i &box, const Visit &visi
         for (int x = box.min.x; x <= box.max.x; ++x) visit(grid.index(x, y));
 }
 
-// Joins neighbours until the curve rises nowhere less than 0.
+// Joins neighbouring points until the curve rises everywhere.
 std::vector<Point> rising(const std::vector<Point> &points) {
     std::vector<Point> curve;
     for (Point next : points) {

@@ -23,8 +23,8 @@ struct MatchTuning {
 
     // A plate clips its highlights if most of its bright pixels, relative to the largest value, are among the brightest.
     // Clipped lamps with grain of 0.03 have 66 % there, other pictures 10 to 20 %.
-    // Pixels this near to them are not compared, compared pixels.
     static constexpr double bright = 0.95, brightest = 0.99, clipped_share = 0.4;
+    // Pixels this near to clipped ones are not compared, in pixels of the compared pictures.
     static constexpr int beside_clipped = 2;
 
     // A block shows something if a fit, in some place, explains this share of its variance.
@@ -75,13 +75,14 @@ struct MatchTuning {
     static constexpr double search_step = 1.25, search_share = 0.1;
     // The widest lens of the search, relative to the LDI's; the narrowest blurs by this many reduced pixels.
     static constexpr double widest = 1.3, narrowest_px = 0.5;
-    // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit has final quality: a
-    // draft's noise would pass for softness and make the lens 2 to 5 % smaller.
+    // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit of a first frame has
+    // final quality, that of a next frame normal quality, whose noise passes for softness: the lens is 2 % smaller.
     static constexpr int search_points = 32, refine_points = 64;
     // How many of the best guesses are refined, and how often.
     static constexpr int refined_guesses = 3, search_steps = 2, final_steps = 3, next_frame_steps = 2;
-    // How far from the best guess others are compared, pixels of CoC: in the search and in the final fit; the fit is over
-    // where it is less than the last. It halves when a step is shorter than this share of it. The longest step.
+    // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This
+    // reach halves after a step that is shorter than a share of it, and the fit ends when it is below `settled_px`.
+    // The longest step.
     static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, settled_px = 0.3, same_reach = 0.75,
                             farthest_px = 3;
     // The step of the softness's variance for its derivative, and its range, square pixels. It is negative where a plate

@@ -6,7 +6,19 @@
 namespace sparselens::lab {
 namespace {
 
-// The file's matrices project a point of the world to where the tracer's own rays see it.
+// The file's matrices project a point of the world to where the tracer's own ray `ray` through the pixel p sees it.
+// Returns the point as the camera sees it.
+Imath::V3d expect_projected(const Camera &camera, const Ray &ray, const Imath::V2d &p) {
+    const Imath::V3d point = ray.origin + 7.0 * ray.direction;
+    Imath::V3d ndc, local;
+    camera.world_to_ndc->multVecMatrix(point, ndc);
+    EXPECT_NEAR(ndc.x, p.x / 320, 1e-12);
+    EXPECT_NEAR(ndc.y, p.y / 180, 1e-12);
+    camera.world_to_camera->multVecMatrix(point, local);
+    EXPECT_NEAR(local.z, 7, 1e-12);
+    return local;
+}
+
 TEST(CameraAt, MatricesAgreeWithTheRays) {
     Camera camera = build_scene("fence").camera;
     camera.focal_length_mm = 50;
@@ -15,15 +27,9 @@ TEST(CameraAt, MatricesAgreeWithTheRays) {
     const Imath::V2d u(-0.4, 0.8), p(70.25, 33.5);
     const Camera moved = camera_at(camera, settings.windows, settings.lens.radius * u);
     const Ray ray = view_ray(settings, u, p);
-    const Imath::V3d point = ray.origin + 7.0 * ray.direction;
-    Imath::V3d ndc, local;
-    moved.world_to_ndc->multVecMatrix(point, ndc);
-    EXPECT_NEAR(ndc.x, p.x / 320, 1e-12);
-    EXPECT_NEAR(ndc.y, p.y / 180, 1e-12);
-    moved.world_to_camera->multVecMatrix(point, local);
+    const Imath::V3d local = expect_projected(moved, ray, p);
     EXPECT_NEAR(local.x, 7 * ray.direction.x, 1e-12);
     EXPECT_NEAR(local.y, 7 * ray.direction.y, 1e-12);
-    EXPECT_NEAR(local.z, 7, 1e-12);
 }
 
 // The same when the camera has moved, at any time of the shutter.
@@ -37,13 +43,7 @@ TEST(CameraAt, MatricesFollowTheCamera) {
         const Placement placement(settings.camera, time);
         const Camera moved = camera_at(camera, settings.windows, settings.lens.radius * u, placement);
         const Ray ray = view_ray(settings, u, p, time);
-        const Imath::V3d point = ray.origin + 7.0 * ray.direction;
-        Imath::V3d ndc, local;
-        moved.world_to_ndc->multVecMatrix(point, ndc);
-        EXPECT_NEAR(ndc.x, p.x / 320, 1e-12);
-        EXPECT_NEAR(ndc.y, p.y / 180, 1e-12);
-        moved.world_to_camera->multVecMatrix(point, local);
-        EXPECT_NEAR(local.z, 7, 1e-12);
+        expect_projected(moved, ray, p);
         const auto position =
             position_relative_to(camera_at(camera, settings.windows, {0, 0}, placement), moved, "view");
         ASSERT_TRUE(position);

@@ -27,11 +27,12 @@ struct Highlights {
 };
 
 // Finds the highlights of a picture, and takes the light that they spread out of `colours`. A sample is a highlight if
-// the brightest of its `brightness` channels is more than four times the level that four of five samples around it stay
-// below, counted by what they cover, which bounds the cost. The level is that of the darkest of four windows of 64 x 64 pixels that overlap at the
-// sample. A window counts the samples in `seen` (pixels relative to the data window's corner), and pixels beyond that
-// let light through, because what else lies beyond is made up; if it has none of these, it counts all its samples. A
-// made-up sample must stand out of all samples of its windows, too, so that at most a fifth of these are highlights.
+// the brightest of its `brightness` channels is more than four times a level. Four fifths of the samples around it, which
+// count by what they cover, stay below this level. So at most a fifth are highlights, which bounds the cost. The level is
+// that of the darkest of four windows of 64 x 64 pixels that overlap at the sample. A window counts the samples in `seen`
+// (pixels relative to the data window's corner), and pixels beyond that let light through, because what else lies beyond
+// is made up; if it has none of these, it counts all its samples. A made-up sample must stand out of all samples of its
+// windows, too, so that at most a fifth of these are highlights.
 // From six times the level on, a sample spreads all light that stands out; below, less and less, so that nothing pops
 // where a lamp is hardly one. Only the channels in `colour_channels` are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
