@@ -94,21 +94,15 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 // Returns the level that all but the brightest samples of a window stay below.
 float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besides) const {
     std::vector<CoveredLight> levels, all;
-    bool covered = true; // by each of them wholly
     for_each_sample(cells, [&](std::uint32_t i) {
         const bool background = samples_.source[i] == BlockedSamples::background, seen = is_seen(i);
         besides.background = besides.background || background;
         besides.unseen = besides.unseen || !seen;
         if (of == Of::seen_and_covered && background) return;
-        const float covers = counts_as(samples_, i);
-        covered = covered && covers == 1;
-        (of == Of::all || seen ? levels : all).push_back({brightness_of(i), covers});
+        (of == Of::all || seen ? levels : all).push_back({brightness_of(i), counts_as(samples_, i)});
     });
     if (levels.empty()) levels = std::move(all);
-    if (!covered) return surroundings_of(std::span(levels), LampTuning::one_in);
-    std::vector<float> brightness(levels.size());
-    std::ranges::transform(levels, brightness.begin(), &CoveredLight::brightness);
-    return surroundings_of(std::span(brightness), LampTuning::one_in);
+    return surroundings_of(std::span(levels), LampTuning::one_in);
 }
 
 std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
