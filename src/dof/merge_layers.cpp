@@ -4,6 +4,7 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "dof/lens/sample_blocks.h"
+#include "dof/volumes.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -189,8 +190,7 @@ void used(std::vector<T> &values) {
 template <typename T>
 void used(const std::vector<T> &) {}
 
-Ldi without_extents(Ldi ldi) {
-    used(ldi.z_back);
+Ldi without_weights(Ldi ldi) {
     used(ldi.weight);
     return ldi;
 }
@@ -199,10 +199,9 @@ template <typename Source> // Ldi or const Ldi
 Ldi merged(Source &ldi, double scale, double tolerance) {
     const RunFinder finder(ldi, scale, tolerance);
     Runs runs = count_runs(ldi, finder);
-    if (runs.begin.back() == ldi.samples()) return without_extents(std::move(ldi));
+    if (runs.begin.back() == ldi.samples()) return without_weights(std::move(ldi));
     measure(runs, ldi, finder);
     const Merging merging(ldi, runs);
-    used(ldi.z_back);
     used(ldi.weight);
     Ldi out;
     out.windows = ldi.windows;
@@ -238,11 +237,14 @@ bool can_merge_layers(const Ldi &ldi) {
 }
 
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance) {
-    return can_merge_layers(ldi) ? merged(ldi, scale, tolerance) : ldi;
+    if (!can_merge_layers(ldi)) return ldi;
+    return ldi.z_back.empty() ? merged(ldi, scale, tolerance) : merge_layers(Ldi(ldi), scale, tolerance);
 }
 
 Ldi merge_layers(Ldi &&ldi, double scale, double tolerance) {
-    return can_merge_layers(ldi) ? merged(ldi, scale, tolerance) : std::move(ldi);
+    if (!can_merge_layers(ldi)) return std::move(ldi);
+    if (!ldi.z_back.empty()) ldi = at_shown_depths(std::move(ldi));
+    return merged(ldi, scale, tolerance);
 }
 
 } // namespace sparselens

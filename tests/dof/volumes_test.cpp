@@ -1,0 +1,71 @@
+#include "dof/gather_picture.h"
+#include "dof/volumes.h"
+#include "support/ldi_samples.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+TEST(Volumes, ThinSmokeShowsItsMiddleAndDenseSmokeItsFront) {
+    EXPECT_DOUBLE_EQ(shown_depth(0), 0.5);
+    EXPECT_DOUBLE_EQ(shown_depth(1), 0);
+    EXPECT_NEAR(shown_depth(1e-4), shown_depth(0.999e-4), 1e-7);
+}
+
+TEST(Volumes, AVolumeShowsItsLightWhereManySlicesDo) {
+    constexpr int slices = 4096;
+    for (const double alpha : {0.01, 0.3, 0.5, 0.9, 0.999}) {
+        const double of_slice = 1 - std::pow(1 - alpha, 1.0 / slices);
+        double shown = 0, depths = 0, transmittance = 1;
+        for (int k = 0; k < slices; ++k) {
+            shown += transmittance * of_slice;
+            depths += transmittance * of_slice * (k + 0.5) / slices;
+            transmittance *= 1 - of_slice;
+        }
+        EXPECT_NEAR(shown_depth(alpha), depths / shown, 1e-5) << alpha;
+    }
+}
+
+TEST(Volumes, PointsEndlessVolumesAndLdisWithoutAlphaStay) {
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    const TestPixel pixel{{.z = 2, .alpha = 0.5f}, {.z = 3, .alpha = 0.5f, .z_back = endless}};
+    Ldi ldi = ldi_of({pixel});
+    EXPECT_EQ(at_shown_depths(ldi).z, ldi.z);
+    EXPECT_TRUE(at_shown_depths(ldi).z_back.empty());
+    ldi = ldi_of({{{.z = 2, .alpha = 1e-3f, .z_back = 4}}});
+    EXPECT_NEAR(double(at_shown_depths(ldi).z[0]), 3, 1e-3);
+    ldi.channels.back().name = "other";
+    EXPECT_EQ(at_shown_depths(ldi).z, ldi.z);
+}
+
+// A picture of one row with a block of smoke in its middle, which has so many samples: volumes, or points at their
+// fronts.
+Image picture_of_smoke(int slices, bool volumes) {
+    const Windows windows = windows_of_size(64, 1);
+    const float alpha = 0.6f, of_slice = 1 - std::pow(1 - alpha, 1 / float(slices));
+    const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int) {
+        std::vector<Sample> samples;
+        for (int k = 0; k < slices && x >= 24 && x < 40; ++k)
+            samples.push_back({.z = 3 + 2.0 * k / slices,
+                               .values = {of_slice, of_slice, of_slice, of_slice},
+                               .z_back = volumes ? float(3 + 2.0 * (k + 1) / slices) : 0});
+        return samples;
+    });
+    const ThinLens lens{.radius = 0.05, .focal_px = 500, .focus = 8};
+    Progress silent;
+    return gather_picture(ldi, lens, windows.data, windows.data, {}, silent);
+}
+
+TEST(Volumes, TheGatheredVolumeIsThatOfItsSlices) {
+    const Image many = picture_of_smoke(64, true);
+    EXPECT_LT(largest_difference(picture_of_smoke(1, true), many),
+              largest_difference(picture_of_smoke(1, false), many) / 2);
+}
+
+} // namespace
+} // namespace sparselens
