@@ -61,7 +61,8 @@ bool sees_infinity(const Ldi &rows) {
 
 Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
     Extremes found;
-    for (const float z : rows.z) found.add(lens, double(z));
+    for (const auto *depths : {&rows.z, &rows.z_back}) // volumes are gathered in between (volumes.h)
+        for (const float z : *depths) found.add(lens, double(z));
     for (const float optical : rows.optical)
         found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));
     for (std::size_t i = 0; i < rows.solid.size(); ++i)

@@ -17,8 +17,9 @@ inline constexpr double layer_tolerance_px = 0.25;
 // coverage differs by channel.
 bool can_merge_layers(const Ldi &ldi);
 
-// `scale` is R F, pixels times scene units. The result has no extents and no weights, because the lens gather ignores
-// them. Ids are those of the front samples. An LDI that cannot be merged is returned unchanged. The LDI must be tidy.
+// `scale` is R F, pixels times scene units. Volumes get one depth first (volumes.h). The result has no extents and no
+// weights, because the lens gather ignores them. Ids are those of the front samples. An LDI that cannot be merged is
+// returned unchanged. The LDI must be tidy.
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance);
 
 // The same with less memory: the samples of `ldi` are freed as those of the result are made.

@@ -1,9 +1,10 @@
 #include "dof/volumes.h"
 
 #include "base/parallel.h"
+#include "deep/build.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sparselens {
 
@@ -15,15 +16,16 @@ double shown_depth(double alpha) {
 
 Ldi at_shown_depths(Ldi ldi) {
     constexpr std::size_t samples_at_once = std::size_t(1) << 16;
-    const std::size_t channel = ldi.alpha();
+    const std::size_t alpha = ldi.alpha();
     const std::vector<float> z_back = std::move(ldi.z_back);
     ldi.z_back.clear();
-    if (channel == npos) return ldi;
     parallel_ranges(z_back.size(), samples_at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            if (!(z_back[i] > ldi.z[i]) || !std::isfinite(z_back[i])) continue;
             const double extent = double(z_back[i]) - double(ldi.z[i]);
-            ldi.z[i] += float(shown_depth(double(ldi.values[channel][i])) * extent);
+            if (!(extent > 0) || !std::isfinite(extent)) continue;
+            const auto farther = float(shown_depth(double(alpha_at(ldi, alpha, i))) * extent);
+            ldi.z[i] += farther;
+            if (!ldi.optical.empty()) ldi.optical[i] += farther;
         }
     });
     return ldi;

@@ -1,4 +1,6 @@
+#include "deep/packed_rows.h"
 #include "dof/gather_picture.h"
+#include "dof/gather_rows.h"
 #include "dof/volumes.h"
 #include "support/ldi_samples.h"
 #include "support/lens_ldi.h"
@@ -43,8 +45,29 @@ TEST(Volumes, PointsEndlessVolumesAndLdisWithoutAlphaStay) {
     EXPECT_EQ(at_shown_depths(ldi).z, ldi.z);
 }
 
-// A picture of one row with a block of smoke in its middle, which has so many samples: volumes, or points at their
-// fronts.
+TEST(Volumes, ImagesInMirrorsMoveAsFar) {
+    Ldi ldi = ldi_of({{{.z = 2, .alpha = 0.5f, .z_back = 4}}});
+    ldi.optical = {7};
+    const Ldi moved = at_shown_depths(ldi);
+    EXPECT_GT(moved.z[0], 2.5f);
+    EXPECT_FLOAT_EQ(moved.optical[0] - 7, moved.z[0] - 2);
+}
+
+TEST(Volumes, BandsReachAsFarAsTheirBacks) {
+    const ThinLens lens{.radius = 0.1, .focal_px = 1000, .focus = 2};
+    const auto seen = [&](const Ldi &ldi) {
+        PackedRows rows(ldi.windows);
+        rows.append(ldi);
+        return reach_of(rows, lens, {}).seen;
+    };
+    const Ldi ldi = ldi_of({{{.z = 2, .alpha = 1}}}), volume = ldi_of({{{.z = 2, .alpha = 1, .z_back = 20}}}),
+              at_back = ldi_of({{{.z = 20, .alpha = 1}}});
+    EXPECT_GE(seen(volume), seen(at_back));
+    EXPECT_LT(seen(ldi), seen(volume));
+}
+
+// A picture of one row, with a block of smoke in the middle that is divided into slices. Each slice is a volume, or a
+// point at its front.
 Image picture_of_smoke(int slices, bool volumes) {
     const Windows windows = windows_of_size(64, 1);
     const float alpha = 0.6f, of_slice = 1 - std::pow(1 - alpha, 1 / float(slices));
