@@ -1,4 +1,5 @@
 #include "chain/parameter_rows.h"
+#include "shutter/rolling_shutter.h"
 
 namespace sparselens {
 
@@ -54,6 +55,9 @@ ParameterOf<PictureRequest> method_row() {
             }};
 }
 
+constexpr NumberRange rolling_duration{"a number from 0.001 to 1",
+                                       [](double v) { return v >= least_rolling_duration && v <= 1; }};
+
 Rows<PictureRequest> gather_rows() {
     constexpr auto picture = &PictureRequest::picture;
     constexpr auto gather = &PictureOptions::gather;
@@ -92,6 +96,11 @@ Rows<PictureRequest> gather_rows() {
               "to 1, and a value (default: box)",
               Form::file),
          in(&PictureRequest::shutter_curve)},
+        {number("rolling-shutter", "D",
+                "Expose each row of the picture for this part of the shutter's time, the top row first, "
+                "the bottom row last (default: 1, all rows for all of the time)",
+                rolling_duration),
+         in(&PictureRequest::rolling_shutter)},
         {text("channels", "LIST", "Channels or layers to gather, comma-separated (default: all)", Form::list),
          in(&PictureRequest::channels)}};
     return joined({{method_row()},

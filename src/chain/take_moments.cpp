@@ -5,6 +5,7 @@
 #include "chain/words.h"
 #include "io/moment_files.h"
 #include "io/shutter_file.h"
+#include "shutter/rolling_shutter.h"
 #include "shutter/shutter_mean.h"
 
 #include <algorithm>
@@ -76,8 +77,7 @@ class Shutter {
 public:
     Shutter(std::vector<ShutterMoment> moments, const PictureRequest &request, const PictureWork &work)
         : moments_(std::move(moments)), request_(request), progress_(work.progress, moments_.size()),
-          work_(work), tell_(once_for_all(work.tell)),
-          weights_(moment_weights(shutter_curve(request.shutter_curve), int(moments_.size()))) {}
+          work_(work), tell_(once_for_all(work.tell)), curve_(shutter_curve(request.shutter_curve)) {}
 
     // The middle moment goes first, because it decides on the focus.
     TakenPicture picture() {
@@ -87,9 +87,11 @@ public:
         request_.front_depth = false;
         if (request_.focus_pixel) request_.lens.focus_distance = out.camera.focus_distance;
         request_.focus_pixel.reset();
-        mean_.add(out.image, weights_[middle], true);
+        const auto weights = row_weights(curve_, int(moments_.size()), request_.rolling_shutter,
+                                         out.image.windows.display_height());
+        mean_.add(out.image, weights[middle], true);
         for (std::size_t m = 0; m < moments_.size(); ++m)
-            if (m != middle && weights_[m] > 0) add(m, moments_[middle].name, out);
+            if (m != middle && counts(weights[m])) add(m, weights[m], moments_[middle].name, out);
         progress_.finish();
         out.image = mean_.take();
         out.header = without_stated_moment(out.header);
@@ -98,17 +100,24 @@ public:
 
 private:
     TakenPicture taken(std::size_t moment) {
-        request_.picture.gather.lens.share = {int(moment), int(moments_.size())};
+        request_.picture.gather.lens.share =
+            share_of_moment(int(moment), int(moments_.size()), request_.rolling_shutter);
         PictureWork work{progress_.next(), tell_, work_.device, nullptr, work_.looks ? work_.looks : &looks_};
         TakenPicture picture = moments_[moment].take(request_, work);
         require_moment({moments_[moment].name, picture}, moment, moments_.size());
         return picture;
     }
 
-    void add(std::size_t moment, const std::string &middle, TakenPicture &out) {
+    // Whether a moment has a weight in any row.
+    static bool counts(std::span<const double> weights) {
+        return std::ranges::any_of(weights, [](double weight) { return weight > 0; });
+    }
+
+    void add(std::size_t moment, std::span<const double> weights, const std::string &middle,
+             TakenPicture &out) {
         const TakenPicture picture = taken(moment);
         require_same_shutter({middle, out}, {moments_[moment].name, picture});
-        mean_.add(picture.image, weights_[moment], false);
+        mean_.add(picture.image, weights, false);
         out.moments += 1;
         out.samples_read += picture.samples_read;
         out.samples_invisible += picture.samples_invisible;
@@ -120,7 +129,7 @@ private:
     const PictureWork &work_;
     Tell tell_;
     LooksReader looks_;
-    std::vector<double> weights_;
+    ShutterCurve curve_;
     ShutterMean mean_;
 };
 
@@ -133,8 +142,13 @@ PictureRequest request_at(PictureRequest request, const std::string &number) {
 }
 
 void require_several(const PictureRequest &request, bool several) {
-    if (!several && !request.shutter_curve.empty())
-        throw UsageError("`shutter_curve`: needs the moments of a shutter, each an LDI (docs/motion.md)");
+    if (several) return;
+    const char *given = !request.shutter_curve.empty() ? "`shutter_curve`"
+                        : request.rolling_shutter != 1 ? "`rolling_shutter`"
+                                                       : nullptr;
+    if (given)
+        throw UsageError(given +
+                         std::string(": needs the moments of a shutter, each an LDI (docs/motion.md)"));
 }
 
 } // namespace

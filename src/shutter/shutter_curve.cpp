@@ -21,12 +21,14 @@ ShutterCurve gaussian_shutter() {
 }
 
 // Times are counted in moments, so that a box gives each moment exactly the same weight.
-std::vector<double> moment_weights(const ShutterCurve &curve, int moments) {
+std::vector<double> moment_weights(const ShutterCurve &curve, int moments, const ShutterPart &open) {
     std::vector<double> weights(std::size_t(moments), 0.0);
+    const auto at = [&](double time) { return (open.from + time * (open.to - open.from)) * moments; };
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
         const auto &[from_time, from] = curve.points[i];
         const auto &[to_time, to] = curve.points[i + 1];
-        const double begin = from_time * moments, end = to_time * moments;
+        const double begin = at(from_time), end = at(to_time);
+        if (begin == end) continue; // too short to count
         for (int m = int(begin); m < moments && m < end; ++m) {
             const double first = std::max(begin, double(m)), last = std::min(end, m + 1.0);
             const double middle = ((first + last) / 2 - begin) / (end - begin);

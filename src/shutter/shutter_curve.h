@@ -19,8 +19,14 @@ ShutterCurve triangle_shutter();
 // Centred, with a standard deviation of a sixth of the shutter's time.
 ShutterCurve gaussian_shutter();
 
-// The weight of each of `moments` (at least 1) equal parts of the shutter's time: the mean of the curve there. A moment
-// stands in the middle of its part.
-std::vector<double> moment_weights(const ShutterCurve &curve, int moments);
+// A part of the shutter's time.
+struct ShutterPart {
+    double from = 0, to = 1; // 0 <= from < to <= 1
+};
+
+// The weight of each of `moments` (at least 1) equal parts of the shutter's time, in the middle of which a moment
+// stands, if light falls in during `open`: the integral of the curve, which is squeezed into `open`, over the moment's
+// part, in units of the length of the latter.
+std::vector<double> moment_weights(const ShutterCurve &curve, int moments, const ShutterPart &open = {});
 
 } // namespace sparselens

@@ -15,16 +15,24 @@ float plus(float sum, double weight, double value) { return float(double(sum) + 
 
 } // namespace
 
-void ShutterMean::add(const Image &picture, double weight, bool is_middle) {
+std::size_t ShutterMean::weighted_row(int y) const {
+    const Imath::Box2i &display = sum_.windows.display;
+    return std::size_t(std::clamp(y, display.min.y, display.max.y) - display.min.y);
+}
+
+void ShutterMean::add(const Image &picture, std::span<const double> weights, bool is_middle) {
     if (sum_.channels.empty()) {
         sum_ = Image(picture.windows, picture.channels);
         mattes_ = find_mattes(sum_.channels);
         coverages_.assign(mattes_.size(), std::vector<IdCoverage>(sum_.windows.pixels()));
+        weights_.assign(weights.size(), 0.0f);
     }
     grow(picture.windows.data);
-    weights_ = plus(weights_, weight, 1);
+    for (std::size_t row = 0; row < weights.size(); ++row)
+        weights_[row] = plus(weights_[row], weights[row], 1);
     parallel_for(std::size_t(picture.windows.height()), [&](std::size_t row) {
-        add_row(picture, picture.windows.data.min.y + int(row), weight, is_middle);
+        const int y = picture.windows.data.min.y + int(row);
+        add_row(picture, y, weights[weighted_row(y)], is_middle);
     });
 }
 
@@ -68,20 +76,25 @@ void ShutterMean::add_row(const Image &picture, int y, double weight, bool is_mi
                                           weight * double(picture.plane(rank.coverage)[from + i]));
 }
 
-Image ShutterMean::take() {
-    const double all = double(weights_);
+void ShutterMean::divide_row(int y) {
+    const double all = double(weights_[weighted_row(y)]);
+    const std::size_t begin = sum_.windows.index(sum_.windows.data.min.x, y);
+    const auto width = std::size_t(sum_.windows.width());
     for (std::size_t k = 0; k < sum_.channels.size(); ++k)
         if (!holds_ids(sum_.channels[k]) && !is_in_matte(sum_.channels[k]))
-            for (float &value : sum_.plane(k)) value = float(double(value) / all);
+            for (float &value : sum_.plane(k).subspan(begin, width)) value = float(double(value) / all);
     for (std::size_t m = 0; m < mattes_.size(); ++m)
-        parallel_ranges(sum_.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                std::vector<IdCoverage::Pair> pairs;
-                for (IdCoverage::Pair pair : coverages_[m][i].ranked())
-                    pairs.push_back({pair.id, pair.coverage / all});
-                write_pairs(mattes_[m], pairs, [&](std::size_t k, float value) { sum_.plane(k)[i] = value; });
-            }
-        });
+        for (std::size_t i = begin; i < begin + width; ++i) {
+            std::vector<IdCoverage::Pair> pairs;
+            for (IdCoverage::Pair pair : coverages_[m][i].ranked())
+                pairs.push_back({pair.id, pair.coverage / all});
+            write_pairs(mattes_[m], pairs, [&](std::size_t k, float value) { sum_.plane(k)[i] = value; });
+        }
+}
+
+Image ShutterMean::take() {
+    parallel_for(std::size_t(sum_.windows.height()),
+                 [&](std::size_t row) { divide_row(sum_.windows.data.min.y + int(row)); });
     coverages_.clear();
     return std::exchange(sum_, {});
 }

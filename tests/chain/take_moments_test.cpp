@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace sparselens {
 namespace {
@@ -103,19 +104,26 @@ TEST(TakeMoments, AreWeightedByTheCurve) {
 }
 
 // Light of the card and of the plane, their alpha, and the coverages of their ids each add up to one.
+void expect_whole(const Image &picture, int x, int y) {
+    const std::size_t pixel = picture.windows.index(x, y);
+    const double front = coverage_in(picture, hashed(1), pixel),
+                 back = coverage_in(picture, hashed(2), pixel);
+    EXPECT_EQ(picture.at(3, x, y), 1) << x << ' ' << y;
+    EXPECT_NEAR(picture.at(0, x, y) + picture.at(2, x, y), 1, 1e-4) << x << ' ' << y;
+    EXPECT_NEAR(front + back, 1, 1e-4) << x << ' ' << y;
+    EXPECT_NEAR(front, picture.at(0, x, y), 0.01) << x << ' ' << y;
+    const std::vector<Matte> mattes = find_mattes(picture.channels);
+    EXPECT_GE(picture.plane(mattes[0].ranks[0].coverage)[pixel],
+              picture.plane(mattes[0].ranks[1].coverage)[pixel]);
+}
+
 TEST(TakeMoments, CoveragesAddUpToOne) {
-    const Image picture = taken(moving_card()).image;
-    for (int x = 20; x < 70; ++x) {
-        const std::size_t pixel = picture.windows.index(x, 12);
-        const double front = coverage_in(picture, hashed(1), pixel),
-                     back = coverage_in(picture, hashed(2), pixel);
-        EXPECT_EQ(picture.at(3, x, 12), 1) << x;
-        EXPECT_NEAR(picture.at(0, x, 12) + picture.at(2, x, 12), 1, 1e-4) << x;
-        EXPECT_NEAR(front + back, 1, 1e-4) << x;
-        EXPECT_NEAR(front, picture.at(0, x, 12), 0.01) << x;
-        const std::vector<Matte> mattes = find_mattes(picture.channels);
-        EXPECT_GE(picture.plane(mattes[0].ranks[0].coverage)[pixel],
-                  picture.plane(mattes[0].ranks[1].coverage)[pixel]);
+    for (const double duration : {0.3, 1.0}) {
+        PictureRequest request;
+        request.rolling_shutter = duration;
+        const Image picture = taken(moving_card(), request).image;
+        for (const int y : {0, 12, 23})
+            for (int x = 20; x < 70; ++x) expect_whole(picture, x, y);
     }
 }
 
@@ -133,6 +141,34 @@ TEST(TakeMoments, InFocusAreTheExactMean) {
         EXPECT_EQ(picture.at(0, x, 9), 4 * share) << x;
         EXPECT_EQ(picture.at(3, x, 9), share) << x;
         EXPECT_EQ(picture.at(3, x, 8), 0) << x;
+    }
+}
+
+// A bar in focus that moves a pixel each moment is slanted by a rolling shutter: in each row it stands, in the mean, where
+// it is in the middle of the row's exposure.
+TEST(TakeMoments, ARollingShutterSlantsABarThatMoves) {
+    constexpr int moments = 8, height = 20;
+    std::vector<OpenedLdi> bars;
+    for (int m = 0; m < moments; ++m)
+        bars.push_back(opened(make_ldi(windows_of_size(40, height), rgba_channels(), [=](int x, int) {
+            return x == 10 + m ? std::vector<Sample>{{lens.focus, {4, 2, 1, 1}}} : std::vector<Sample>();
+        })));
+    for (const double duration : {0.125, 0.25, 0.75}) {
+        PictureRequest request;
+        request.rolling_shutter = duration;
+        const Image picture = taken(bars, request).image;
+        for (int y = 0; y < height; ++y) {
+            const double time = (y + 0.5) / height * (1 - duration) + duration / 2;
+            double alpha = 0, light = 0, moment = 0;
+            for (int x = 0; x < 40; ++x) {
+                alpha += double(picture.at(3, x, y));
+                light += double(picture.at(0, x, y));
+                moment += double(picture.at(3, x, y)) * (x + 0.5);
+            }
+            EXPECT_NEAR(alpha, 1, 1e-6) << y;
+            EXPECT_NEAR(light, 4, 1e-5) << y;
+            EXPECT_NEAR(moment, 10 + time * moments, 1e-5) << y;
+        }
     }
 }
 
@@ -154,16 +190,20 @@ TEST(TakeMoments, OneIsTheStill) {
     EXPECT_EQ(pictures[0].values, pictures[1].values);
 }
 
-// The moments of a scene that stands still look through all lens points of a still, each through its share.
+// The moments of a scene that stands still look through all lens points of a still, each through its share. So do those
+// that a row of a rolling shutter sees, if its exposure is a whole number of moments long.
 TEST(TakeMoments, OfAStillSceneAreTheStill) {
     const OpenedLdi in = opened(random_surfaces(windows_of_size(96, 64), lens, false, 3));
     const Image still = taken({in}).image;
-    for (const std::size_t count : {2u, 4u, 8u}) {
-        const Image moments = taken(std::vector<OpenedLdi>(count, in)).image;
+    for (const auto &[count, duration] :
+         {std::pair{2u, 1.0}, {4u, 1.0}, {8u, 1.0}, {4u, 0.5}, {4u, 0.25}, {8u, 0.25}}) {
+        PictureRequest request;
+        request.rolling_shutter = duration;
+        const Image moments = taken(std::vector<OpenedLdi>(count, in), request).image;
         double sum = 0;
         for (std::size_t i = 0; i < still.values.size(); ++i)
             sum += std::pow(double(still.values[i] - moments.values[i]), 2);
-        EXPECT_LT(std::sqrt(sum / double(still.values.size())), 2e-3) << count;
+        EXPECT_LT(std::sqrt(sum / double(still.values.size())), 2e-3) << count << ' ' << duration;
     }
 }
 
@@ -235,11 +275,17 @@ TEST(TakeMoments, OfDifferentShotsAreRefused) {
     EXPECT_EQ(refused(other), "a.exr: is moment 1 of its shutter, and the files have it as moment 0");
 }
 
-TEST(TakeMoments, NeedToBeSeveralForACurve) {
-    PictureRequest request;
-    request.shutter_curve = "triangle";
-    EXPECT_EQ(what_of<UsageError>([&] { taken({plane(20, "a.exr")}, request); }),
+TEST(TakeMoments, NeedToBeSeveralForACurveOrARollingShutter) {
+    PictureRequest curve, rolling;
+    curve.shutter_curve = "triangle";
+    rolling.rolling_shutter = 0.5;
+    const auto refused = [](const PictureRequest &request) {
+        return what_of<UsageError>([&] { taken({plane(20, "a.exr")}, request); });
+    };
+    EXPECT_EQ(refused(curve),
               "`shutter_curve`: needs the moments of a shutter, each an LDI (docs/motion.md)");
+    EXPECT_EQ(refused(rolling),
+              "`rolling_shutter`: needs the moments of a shutter, each an LDI (docs/motion.md)");
 }
 
 // A warning that all moments give is given once.

@@ -176,13 +176,16 @@ def test_moments(clustered, warped, tool, tmp_path):
     files = [clustered, warped, clustered]
     for number, file in enumerate(files):
         (tmp_path / f"ldi_{number}.exr").write_bytes(file.read_bytes())
-    tool("dof-gather", tmp_path / "ldi_%s.exr", "-o", tmp_path / "tool.exr", "--shutter-curve", "triangle")
+    tool("dof-gather", tmp_path / "ldi_%s.exr", "-o", tmp_path / "tool.exr", "--shutter-curve", "triangle",
+         "--rolling-shutter", "0.5")
     ldis = [sparselens.open_ldi(file) for file in files]
-    picture = sparselens.gather(ldis, shutter_curve="triangle")
+    picture = sparselens.gather(ldis, shutter_curve="triangle", rolling_shutter=0.5)
     assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, picture)
     assert numpy.array_equal(sparselens.gather(ldis[:1]).planes, sparselens.gather(ldis[0]).planes)
     with pytest.raises(sparselens.UsageError, match="shutter_curve: needs the moments of a shutter"):
         sparselens.gather(ldis[0], shutter_curve="box")
+    with pytest.raises(sparselens.UsageError, match="rolling_shutter: needs the moments of a shutter"):
+        sparselens.gather(ldis[0], rolling_shutter=0.5)
     with pytest.raises(TypeError, match="an Ldi, or a sequence of the moments of a shutter"):
         sparselens.gather([ldis[0], 3])
 

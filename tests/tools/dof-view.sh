@@ -32,7 +32,7 @@ agree --axial-chromatic 1 --axial-chromatic-type blue-yellow --field-curvature 0
 # Two moments of a shutter, the second with fewer samples.
 cp ldi.exr moment_0.exr
 exits 0 "$bin/ldi-cluster" ldi.exr -o moment_1.exr --tolerance 2
-of=moment_%s.exr agree --shutter-curve triangle
+of=moment_%s.exr agree --shutter-curve triangle --rolling-shutter 0.5
 agree --astigmatism 0.3
 agree --lens "$source_dir/share/lenses/hexagon.json" --highlight-gain 3 --highlight-threshold 0.5 --highlight-knee 0.5
 agree --aperture "$source_dir/share/lenses/mirror.exr"

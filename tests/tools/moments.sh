@@ -54,6 +54,24 @@ exits 0 "$gather" ldi.0002_2.exr -o still.exr --depth-out still-depth.exr
 picture same depth.exr still-depth.exr >found || fail "the depth: $(cat found)"
 fails_saying 2 '^dof-gather: --shutter-curve: needs the moments of a shutter' \
     "$gather" ldi.0002_2.exr -o x.exr --shutter-curve box
+
+# A rolling shutter: the top row shows the first moment, and the bottom row the last.
+exits 0 "$gather" "ldi.0002_%s.exr" -o together.exr --rolling-shutter 1
+same together.exr one.exr "all rows together"
+exits 0 "$bin/dof-gather" "ldi.0002_%s.exr" -o rolling.exr --rolling-shutter 0.2 --lens-radius 0
+exits 0 "$gather" ldi.0002_0.exr -o first.exr --lens-radius 0
+for row in "0 first.exr" "53 only.exr"; do
+    read -r y moment <<<"$row"
+    for name in rolling.exr "$moment"; do oiiotool "$name" --cut 96x1+0+"$y" -o "row.$name"; done
+    picture same row.rolling.exr "row.$moment" R,G,B,A 0.002 >found || fail "--rolling-shutter: row $y: $(cat found)"
+done
+picture same rolling.exr first.exr R,G,B,A 0.002 >found && fail "--rolling-shutter: all rows show the first moment"
+fails_saying 2 '^dof-gather: --rolling-shutter: needs the moments of a shutter' \
+    "$gather" ldi.0002_2.exr -o x.exr --rolling-shutter 0.5
+for wrong in 0 -1 1.01 inf nan top; do
+    fails_saying 2 '^dof-gather: --rolling-shutter: .* is not a number from 0.001 to 1' \
+        "$gather" "ldi.0002_%s.exr" -o x.exr --rolling-shutter $wrong
+done
 fails_saying 1 'no-such-curve' "$gather" "ldi.0002_%s.exr" -o x.exr --shutter-curve no-such-curve
 
 # -u, and an output that is an input.

@@ -115,6 +115,7 @@ ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, P
         return out;
     }
     request.shutter_curve.clear();
+    request.rolling_shutter = 1;
     request.picture.holdout = holdout(options, of);
     request.holdout.clear();
     if (options.windows.proxy > 1) {

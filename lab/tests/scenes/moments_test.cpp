@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace sparselens {
 namespace {
@@ -31,7 +32,8 @@ Image picture_of_moments(SceneCamera &scene, int moments, int samples, const Len
             cluster(warped, {.scale = lens.radius * lens.focal_px, .tolerance = 0.25}, silent).ldi;
         LensGatherOptions options = by;
         options.share = {moment, moments};
-        mean.add(lens_gather(ldi, lens, scene.settings.windows.data, options, silent), 1,
+        mean.add(lens_gather(ldi, lens, scene.settings.windows.data, options, silent),
+                 std::vector<double>(std::size_t(scene.settings.windows.display_height()), 1.0),
                  moment == moments / 2);
     }
     return mean.take();
