@@ -63,7 +63,7 @@ private:
         Batch batch;
         points_.in_pixel(x, y, first, std::span(batch.in_pixel).first(n));
         points_.on_lens(x, y, first, std::span(batch.on_lens).first(n));
-        points_.in_time(settings_.exposure, x, y, first, std::span(batch.time).first(n));
+        points_.in_time(exposure_of_row(settings_, y), x, y, first, std::span(batch.time).first(n));
         if (settings_.light == Light::area) points_.on_light(x, y, first, std::span(batch.on_light).first(n));
         for (std::size_t i = 0; i < n; ++i) {
             batch.in_pixel[i] += Imath::V2d(x, y);

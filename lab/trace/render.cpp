@@ -4,6 +4,7 @@
 #include "lab/trace/look_rays.h"
 #include "lab/trace/sampling.h"
 #include "lens/lens_points.h"
+#include "shutter/rolling_shutter.h"
 
 #include <algorithm>
 #include <array>
@@ -94,6 +95,13 @@ std::vector<int> columns_asked(std::span<const std::uint8_t> asked_row, int widt
 
 } // namespace
 
+Exposure exposure_of_row(const RenderSettings &settings, int y) {
+    const Imath::Box2i &display = settings.windows.display;
+    const ShutterPart part =
+        sparselens::exposure_of_row(y - display.min.y, settings.windows.display_height(), settings.rolling);
+    return {settings.exposure.at(part.from), settings.exposure.at(part.to)};
+}
+
 Ray from_camera(const RenderSettings &settings, const Ray &at_rest) {
     if (!settings.camera.moves()) return at_rest;
     const Placement camera(settings.camera, at_rest.time);
@@ -126,7 +134,8 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
         std::array<Imath::V2d, batch_size> p;
         std::array<double, batch_size> time;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
-        points.in_time(settings.exposure, run.x, run.y, run.first, std::span(time).first(run.rays.size()));
+        points.in_time(exposure_of_row(settings, run.y), run.x, run.y, run.first,
+                       std::span(time).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
             run.rays[i] = view_ray(settings, u, p[i] + Imath::V2d(run.x, run.y), time[i]);
         if (scatters) points.on_light(run.x, run.y, run.first, run.light_points);
@@ -157,7 +166,8 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
         std::array<double, batch_size> time;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
         points.on_lens(run.x, run.y, run.first, std::span(on_lens).first(run.rays.size()));
-        points.in_time(settings.exposure, run.x, run.y, run.first, std::span(time).first(run.rays.size()));
+        points.in_time(exposure_of_row(settings, run.y), run.x, run.y, run.first,
+                       std::span(time).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
             run.rays[i] =
                 lens_ray(settings, disc_point(on_lens[i]), p[i] + Imath::V2d(run.x, run.y), time[i]);

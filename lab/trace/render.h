@@ -21,12 +21,16 @@ struct RenderSettings {
     Light light = Light::sun;
     Motion camera = {};            // of the camera, in world space, which is its space at rest
     Exposure exposure = {};        // depths are those in the middle of it
+    double rolling = 1;            // the duration of a rolling shutter (shutter/rolling_shutter.h)
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
     std::uint32_t stream = 0;      // of the reference, below 2^26: different streams share no noise
     LensLooks looks = {};          // of the reference
     HighlightGain highlights = {}; // gain for the light of its rays
     bool scattered = false;        // views: no grids in pixels, so that the mean of many views is antialiased
 };
+
+// When row y of the picture is exposed.
+Exposure exposure_of_row(const RenderSettings &settings, int y);
 
 // The stream of random numbers for `stream` (below 2^26) with these settings.
 inline std::uint32_t seeded(const RenderSettings &settings, std::uint32_t stream) {

@@ -4,6 +4,7 @@
 #include "harness/examples.h"
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
+#include "shutter/rolling_shutter.h"
 #include "view/resolve_looks.h"
 
 #include <CLI/CLI.hpp>
@@ -140,6 +141,11 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
         "--motion-blur", options.motion_blur,
         "Open the shutter: the reference and the views have motion blur, but depths are those of the "
         "middle of its time");
+    app.add_option("--rolling-shutter", options.rolling_shutter,
+                   "Expose each row for this part of the shutter's time in pictures with motion blur, the "
+                   "top row first, the bottom row last (default: 1, all rows for all of the time)")
+        ->type_name("D")
+        ->check(CLI::Range(least_rolling_duration, 1.0));
     app.add_option("--moments", options.moments,
                    "Render the centre view and those of --views at N moments of the open shutter, without "
                    "motion blur and each with 1/N of the samples: center_0.exr, view_0_0.exr, ..., "
@@ -228,6 +234,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
         throw UsageError(fmt::format("--size and --overscan ask for more than {} pixels", largest_picture));
     settings.camera = options.dolly == 0 ? motion : displaced(motion, {0, 0, options.dolly});
     if (options.motion_blur || options.moments > 0) settings.exposure = whole_shutter;
+    settings.rolling = options.rolling_shutter;
     settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // for a pinhole too

@@ -29,6 +29,7 @@ struct TraceOptions {
     int halves = 0;      // rays per pixel of both; 0: none
     int width = 640, height = 360;
     bool motion_blur = false;
+    double rolling_shutter = 1;
     int moments = 0;  // of the shutter, each with its views; 0: views of a still
     int overscan = 0; // pixels
     double dolly = 0; // scene units

@@ -130,6 +130,9 @@ view_1_0.exr view_1_1.exr " ] || fail "--moments: $(ls moments)"
 differ fair/reference.exr open/reference.exr "--motion-blur"
 differ fair/center.exr open/center.exr "views with --motion-blur"
 same open/reference.exr moments/reference.exr "--moments, and --motion-blur"
+exits 0 "$trace" fair -o rolling "${small[@]}" --reference 3 --moments 2 --rolling-shutter 0.25
+differ open/reference.exr rolling/reference.exr "--rolling-shutter"
+same moments/view_1_0.exr rolling/view_1_0.exr "a moment with --rolling-shutter"
 for k in 0 1; do
     header moments/center_$k.exr "sparselens:moment (type int): $k"
     header moments/view_1_$k.exr 'sparselens:moments (type int): 2'
@@ -142,9 +145,9 @@ exits 0 "$trace" fence -o unmoved "${small[@]}" --reference 3 --motion-blur
 for file in center view_1 reference; do same fence/$file.exr unmoved/$file.exr "--motion-blur where nothing moves"; done
 exits 0 "$trace" fence -o nearer "${small[@]}" --dolly 0.1
 header nearer/center.exr '^ *0 0 -0.1 1'
-for wrong in '--moments 0' '--moments 65' '--moments 3' '--moments 2 --plan p.json'; do
+for wrong in '--moments 0' '--moments 65' '--moments 3' '--moments 2 --plan p.json' '--rolling-shutter 0' '--rolling-shutter 1.5'; do
     # shellcheck disable=SC2086
-    fails_saying 2 '--moments|--spp' "$trace" fair -o x "${small[@]}" $wrong
+    fails_saying 2 '--moments|--spp|--rolling-shutter' "$trace" fair -o x "${small[@]}" $wrong
 done
 
 # Two halves for dof-finish have independent noise, of each other and of the reference, and state their number of rays.

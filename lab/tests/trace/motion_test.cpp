@@ -117,6 +117,32 @@ TEST(Motion, ACameraThatMovesStreaksTheSame) {
     expect_streak(scene, settings, 20);
 }
 
+// The middle of a bar, in each row, is where the bar is in the middle of the row's exposure.
+TEST(Motion, ARollingShutterSlantsABarThatMoves) {
+    RenderSettings settings = settings_of_size(64, 32);
+    settings.lens.radius = 0;
+    settings.exposure = whole_shutter;
+    settings.rolling = 0.125;
+    const double unit = lamp_z / 64, length = 20;
+    Scene scene;
+    scene.sky_coverage = 0;
+    scene.bodies = {{{facing_quad(-2 * unit, -100, 2 * unit, 100, lamp_z, white_light)}, {}, {}}};
+    scene.bodies[0].motion.path = {{-length / 2 * unit, 0, 0}, {length / 2 * unit, 0, 0}};
+    const Tracer tracer(scene);
+    for (const Image &image : {render_view(tracer, settings, {0, 0}, 256, 1, silent),
+                               render_reference(tracer, settings, 256, silent)})
+        for (int y = 0; y < 32; ++y) {
+            const double time = (y + 0.5) / 32 * (1 - 0.125) + 0.125 / 2;
+            double sum = 0, moment = 0;
+            for (int x = 0; x < 64; ++x) {
+                sum += double(image.at(3, x, y));
+                moment += double(image.at(3, x, y)) * (x + 0.5);
+            }
+            EXPECT_NEAR(sum, 4, 0.05) << y;
+            EXPECT_NEAR(moment / sum, 32 + length * (time - 0.5), 0.05) << y;
+        }
+}
+
 // Views with motion blur have the colours of all times, and the depth of one.
 TEST(Motion, DepthsAreThoseOfTheMiddle) {
     RenderSettings settings = settings_of_size(64, 32);
