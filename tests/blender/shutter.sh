@@ -90,6 +90,26 @@ bpy.ops.wm.save_as_mainfile(filepath='$PWD/sharp.blend')"
     rm -r still moments
 done
 
+# A rolling shutter whose curve rises, beside Cycles' own: the moments have even times, and dof-gather gets the curve.
+in_blender pan.blend --python-expr "
+import bpy
+scene = bpy.context.scene
+scene.cycles.rolling_shutter_type, scene.cycles.rolling_shutter_duration = 'TOP', 0.25
+curve = scene.render.motion_blur_shutter_curve
+curve.initialize()
+curve.curves[0].points[0].location = 0, 0
+curve.update()
+bpy.ops.wm.save_as_mainfile(filepath='$PWD/rolling.blend')"
+in_blender rolling.blend -P "$variants" -- render 512 3 3 "$PWD/rolling.####.exr"
+in_blender rolling.blend -P "$views" -- -o rolling.exr --picture --frame 3 --samples 32 --tools "$bin" --shutter 8 --views-folder moments
+exrheader moments/center_0.exr | grep -Fq 'sparselens:time (type float): 2.78125' || fail "the moments of a rolling shutter are not even"
+[ "$(head -n 1 moments/shutter_curve.txt)/$(wc -l <moments/shutter_curve.txt)" = "0.0 0.0/257" ] || fail "the curve: $(cat moments/shutter_curve.txt)"
+rolling=$(decibels rolling.exr rolling.0003.exr) together=$(decibels pan.exr rolling.0003.exr)
+echo "rolling shutter: eight moments $rolling dB; all rows together $together dB"
+better "$rolling" "$together" 3 "rolling shutter"
+in_blender rolling.blend -P "$views" -- -o rolling --shutter 2 --frame 3 --samples 2 --views 0 --overscan 0
+grep -q 'warning: the shutter rolls: give dof-gather --rolling-shutter 0.25 --shutter-curve' said || fail "views of a rolling shutter: $(cat said)"
+
 # What is refused.
 refused() { # PATTERN OPTION...
     local pattern=$1

@@ -14,6 +14,7 @@ from .options import read_options
 from .renders import folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
+from .shutter import shutter_options
 from .sub_pixels import AUTO
 from .views import (
     check_plan, counted, numbered, views_of_lens, views_of_plan)
@@ -59,6 +60,9 @@ def render_views(options, scene, eyes, manner, say):
     render_now(scene, views_steps(
         scene, frames_of(options, scene), folder, views_at, eyes, manner,
         count, options.frames is not None, say))
+    rolling = shutter_options(scene, manner.shutter, folder)
+    if rolling:
+        say("the shutter rolls: give dof-gather %s" % " ".join(rolling))
     print("sparselens_views.py: %s in %s" % (counted(count.rendered, "view"),
                                              options.output))
 

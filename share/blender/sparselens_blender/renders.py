@@ -24,8 +24,7 @@ from .kept import (
 from .layers import parts_of, shown_alone
 from .one_view import overscan_steps, view_steps
 from .shots import camera_attributes, eyes_of, shot_of
-from .shutter import (
-    at_moment, check_shutter, forget_more, moments_of, of_moment)
+from .shutter import at_moment, forget_more, moments_of, of_moment
 from .sub_pixels import AUTO, supersample_steps
 from .volumes import check_slices, without_volumes
 
@@ -197,8 +196,7 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     """The views of a list of frames; views_at(frame) returns those of one
     frame. With `several` the names carry the frame's number. Warnings go to
     `say`, once for all frames. Yields the renders, in words."""
-    for text in (check_scene(scene, manner.shutter)
-                 + check_shutter(scene, manner.shutter)):
+    for text in check_scene(scene, manner.shutter):
         say(text)
     if manner.finish:
         check_halves(scene, manner.shutter)

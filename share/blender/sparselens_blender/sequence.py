@@ -15,6 +15,7 @@ from .manner import Count
 from .one_view import view_steps
 from .renders import folder_of, frame_ending, used_layers, views_steps
 from .shots import shot_of
+from .shutter import shutter_options
 from .views import counted, numbered, views_of_lens
 
 FORMATS = {".exr": "OPEN_EXR", ".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG",
@@ -120,7 +121,8 @@ class Pictures:
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
                 self.tools, files.of_moments("ldi"), gathered,
-                pictures.lens_options(shot, looks)),
+                pictures.lens_options(shot, looks) + shutter_options(
+                    self.scene, self.manner.shutter, self.views)),
             *([pictures.finish_command(self.tools, files, made)]
               if self.options.finish else [])])
         yield chain

@@ -12,6 +12,7 @@ from .for_a_while import changed
 from .shots import shot_of
 
 MOST = 64
+LEAST_ROLLING = 0.001  # of --rolling-shutter of dof-gather
 SEEDS_APART = 9973  # between moments; halves.py takes the seeds beside them
 
 
@@ -44,10 +45,7 @@ def times_of(values, count):
     curve's area. The values are the curve's, at equal distances."""
     sums = [0]
     for one, other in zip(values, values[1:]):
-        sums.append(sums[-1] + max(one, 0) + max(other, 0))
-    if sums[-1] == 0:
-        raise ValueError("the shutter's curve is 0: set another one under "
-                         "Motion Blur in the render properties")
+        sums.append(sums[-1] + one + other)
     times, piece = [], 0
     for number in range(count):
         area = sums[-1] * (number + 0.5) / count
@@ -73,28 +71,53 @@ def setting(scene, name):
 def curve_of(scene):
     mapping, pieces = scene.render.motion_blur_shutter_curve, 256
     mapping.initialize()
-    return [mapping.evaluate(mapping.curves[0], piece / pieces)
-            for piece in range(pieces + 1)]
+    values = [max(0.0, mapping.evaluate(mapping.curves[0], piece / pieces))
+              for piece in range(pieces + 1)]
+    if max(values) == 0:
+        raise ValueError("the shutter's curve is 0: set another one under "
+                         "Motion Blur in the render properties")
+    return values
+
+
+def rolling_duration(scene):
+    """The part of the shutter's time for which each row is exposed: 1 without
+    a rolling shutter, which Cycles alone has."""
+    if scene.render.engine != "CYCLES" or \
+            scene.cycles.rolling_shutter_type == "NONE":
+        return 1
+    return max(LEAST_ROLLING, scene.cycles.rolling_shutter_duration)
+
+
+def shutter_options(scene, count, folder):
+    """Options that tell dof-gather about a rolling shutter. Each row has its
+    own exposure, with the whole curve, which goes into a file in the
+    folder."""
+    duration = rolling_duration(scene)
+    if count <= 1 or duration == 1:
+        return []
+    options, values = ["--rolling-shutter", repr(duration)], curve_of(scene)
+    if min(values) < max(values):
+        os.makedirs(folder, exist_ok=True)
+        curve = os.path.join(folder, "shutter_curve.txt")
+        with open(curve, "w") as file:
+            for piece, value in enumerate(values):
+                file.write("%r %r\n" % (piece / (len(values) - 1), value))
+        options += ["--shutter-curve", curve]
+    return options
 
 
 def moments_of(scene, frame, count):
     """The moments of a frame's shutter; None in their place, once, for a
-    still."""
+    still. Each stands for an equal part of the light, or, if the shutter
+    rolls, of the time."""
     if count <= 1:
         return [None]
     length = setting(scene, "motion_blur_shutter")
     begin = frame + length * {"START": 0, "CENTER": -0.5, "END": -1}[
         setting(scene, "motion_blur_position")]
+    values = curve_of(scene) if rolling_duration(scene) == 1 else [1, 1]
     return [Moment(frame, number, count, begin + length * time)
-            for number, time in enumerate(times_of(curve_of(scene), count))]
-
-
-def check_shutter(scene, count):
-    """Warnings about what the moments cannot show."""
-    if count > 1 and scene.render.engine == "CYCLES" and \
-            scene.cycles.rolling_shutter_type != "NONE":
-        return ["the rolling shutter is not shown: all rows have one time"]
-    return []
+            for number, time in enumerate(times_of(values, count))]
 
 
 @contextmanager

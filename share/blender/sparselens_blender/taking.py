@@ -10,6 +10,7 @@ from .kept import of_other_file
 from .looks import looks_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
+from .shutter import shutter_options
 from .sub_pixels import supersample_in
 from .write_access import with_write_access
 
@@ -90,6 +91,7 @@ class Taking:
             ldi, made = files.of_moments("ldi"), files.path("picture")
             sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
             options = pictures.lens_options(shot, looks_of(settings))
+            options += shutter_options(scene, settings.shutter, views)
             size = [side // shot.supersample for side in shot.size]
             warps += [(command, None) for command in pictures.warp_commands(
                 folder, files, layer)]
