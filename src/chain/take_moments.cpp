@@ -5,6 +5,7 @@
 #include "chain/words.h"
 #include "io/moment_files.h"
 #include "io/shutter_file.h"
+#include "shutter/lamp_paths.h"
 #include "shutter/rolling_shutter.h"
 #include "shutter/shutter_mean.h"
 
@@ -41,6 +42,12 @@ public:
         if (part_) reach(hundred);
     }
 
+    // For work that shows no progress.
+    Progress &unseen() {
+        unseen_.emplace(Progress::Listener(), [this] { whole_.may_end(); });
+        return *unseen_;
+    }
+
 private:
     static constexpr std::size_t hundred = 100;
 
@@ -53,7 +60,7 @@ private:
     }
 
     Progress &whole_;
-    std::optional<Progress> part_;
+    std::optional<Progress> part_, unseen_;
     std::mutex guard_; // for reached_
     std::size_t reached_ = 0;
 };
@@ -82,11 +89,11 @@ public:
     // The middle moment goes first, because it decides on the focus.
     TakenPicture picture() {
         const std::size_t middle = moments_.size() / 2;
+        if (request_.show == Show::picture) follow_lamps(middle);
         TakenPicture out = taken(middle);
         if (request_.show != Show::picture) return out;
         request_.front_depth = false;
-        if (request_.focus_pixel) request_.lens.focus_distance = out.camera.focus_distance;
-        request_.focus_pixel.reset();
+        focus_as(out, request_);
         const auto weights = row_weights(curve_, int(moments_.size()), request_.rolling_shutter,
                                          out.image.windows.display_height());
         mean_.add(out.image, weights[middle], true);
@@ -99,14 +106,42 @@ public:
     }
 
 private:
+    // All moments have the focus of the middle one.
+    static void focus_as(const TakenPicture &middle, PictureRequest &request) {
+        if (request.focus_pixel) request.lens.focus_distance = middle.camera.focus_distance;
+        request.focus_pixel.reset();
+    }
+
+    // Finds the paths of lamps. If the middle moment has no lamps, the others are not looked at.
+    void follow_lamps(std::size_t middle) {
+        if (request_.picture.method != &gather_methods().front()) return;
+        PictureRequest request = request_;
+        request.front_depth = false;
+        std::vector<std::vector<LampPart>> lamps(moments_.size());
+        const auto find = [&](std::size_t moment) {
+            request.picture.gather.lens.lamps = &lamps[moment];
+            const Tell silent = [](const Notice &) {
+            }; // what there is to tell is told when the moment is taken
+            return moments_[moment].take(request, {progress_.unseen(), silent, nullptr, nullptr, looks()});
+        };
+        focus_as(find(middle), request);
+        if (lamps[middle].empty()) return;
+        for (std::size_t m = 0; m < moments_.size(); ++m)
+            if (m != middle) find(m);
+        paths_ = find_lamp_paths(std::move(lamps));
+    }
+
     TakenPicture taken(std::size_t moment) {
         request_.picture.gather.lens.share =
             share_of_moment(int(moment), int(moments_.size()), request_.rolling_shutter);
-        PictureWork work{progress_.next(), tell_, work_.device, nullptr, work_.looks ? work_.looks : &looks_};
+        request_.picture.gather.lens.paths = paths_.empty() ? nullptr : &paths_[moment];
+        PictureWork work{progress_.next(), tell_, work_.device, nullptr, looks()};
         TakenPicture picture = moments_[moment].take(request_, work);
         require_moment({moments_[moment].name, picture}, moment, moments_.size());
         return picture;
     }
+
+    LooksReader *looks() { return work_.looks ? work_.looks : &looks_; }
 
     // Whether a moment has a weight in any row.
     static bool counts(std::span<const double> weights) {
@@ -131,6 +166,7 @@ private:
     LooksReader looks_;
     ShutterCurve curve_;
     ShutterMean mean_;
+    std::vector<LampPaths> paths_; // [moment]; empty: there are no lamps
 };
 
 // The request for the files of one moment.

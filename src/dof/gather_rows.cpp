@@ -113,7 +113,10 @@ public:
     Bands(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
           const PictureOptions &options)
         : rows_(rows), lens_(lens), gathered_(gathered), options_(options),
-          reach_(reach_of(rows, lens, options.gather.lens.looks, options.gather.lens.across)) {}
+          reach_(reach_of(rows, lens, options.gather.lens.looks, options.gather.lens.across)) {
+        if (const LampPaths *paths = options.gather.lens.paths)
+            reach_.seen += int(std::ceil(paths->farthest()));
+    }
 
     // The height of the bands, in rows.
     int height(const BandLimits &limits) const {
@@ -138,14 +141,26 @@ public:
         by.gather.lens.known = gathered_;
         by.gather.lens.known->min.y = std::max(gathered_.min.y, from.first);
         by.gather.lens.known->max.y = std::min(gathered_.max.y, from.last);
+        std::vector<LampPart> lamps;
+        if (by.gather.lens.lamps) by.gather.lens.lamps = &lamps;
         // With the empty rows above, positions are relative to the picture's corner, and rounded as in the whole
         // picture.
-        return gather_picture(with_empty_above(rows_.rows(from.first, from.last), data.min.y), lens_,
-                              {{gathered_.min.x, band.first}, {gathered_.max.x, band.last}}, written, by,
-                              progress);
+        Image picture = gather_picture(with_empty_above(rows_.rows(from.first, from.last), data.min.y), lens_,
+                                       {{gathered_.min.x, band.first}, {gathered_.max.x, band.last}}, written,
+                                       by, progress);
+        if (options_.gather.lens.lamps) add_lamps(lamps, band, *options_.gather.lens.lamps);
+        return picture;
     }
 
 private:
+    // The lamps of a band alone: those of its margins are found better with the bands beside it.
+    void add_lamps(std::span<const LampPart> found, const Band &band, std::vector<LampPart> &lamps) const {
+        const double top = band.first == gathered_.min.y ? -HUGE_VAL : band.first,
+                     bottom = band.last == gathered_.max.y ? HUGE_VAL : band.last + 1;
+        std::ranges::copy_if(found, std::back_inserter(lamps), [&](const LampPart &part) {
+            return double(part.at.y) >= top && double(part.at.y) < bottom;
+        });
+    }
     double most_bytes(int height) const {
         std::uint64_t most = 0;
         for_each(height, [&](const Band &band) {

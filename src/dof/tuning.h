@@ -32,6 +32,12 @@ struct GatherTuning {
     static constexpr double lamp_square_to_px = 1;
     // Pixels of CoC. From this CoC on, light comes from the sample's position.
     static constexpr double lamp_point_from_px = 2;
+    // How much farther the light then reaches, at most.
+    static constexpr float lamp_square_reach_px = 2;
+    // The discs of a lamp along its path (shutter/lamp_paths.h) are this far apart: pixels, or a share of the CoC if
+    // that is more; and how many there are at most.
+    static constexpr float lamp_step_px = 1, lamp_step_of_coc = 1.0f / 8;
+    static constexpr int most_lamp_steps = 256;
     // Share of the aperture. A pixel to which a cat-eye leaves less gets no light from lamps.
     static constexpr double cat_eye_least = 1e-4;
 

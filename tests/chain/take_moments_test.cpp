@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -170,6 +171,66 @@ TEST(TakeMoments, ARollingShutterSlantsABarThatMoves) {
             EXPECT_NEAR(moment, 10 + time * moments, 1e-5) << y;
         }
     }
+}
+
+// A lamp of one pixel, with this CoC, that moves by `step` pixels each moment, before a plane in focus. A dim card beside
+// it, out of focus, keeps the picture from being sharp everywhere.
+constexpr float lamp_light = 1000;
+constexpr int lamp_from = 40, lamp_row = 48, lamp_moments = 4;
+
+std::vector<OpenedLdi> moving_lamp(double coc, int step) {
+    std::vector<OpenedLdi> moments;
+    for (int m = 0; m < lamp_moments; ++m)
+        moments.push_back(opened(make_ldi(windows_of_size(200, 96), rgba_channels(), [=](int x, int y) {
+            std::vector<Sample> samples;
+            if (x == lamp_from + step * m && y == lamp_row)
+                samples.push_back({coc == 0 ? lens.focus : depth_of(lens, coc), {lamp_light, 0, 0, 1}});
+            else if (x < 6)
+                samples.push_back({depth_of(lens, -3), {0.01f, 0.01f, 0.01f, 1}});
+            samples.push_back({lens.focus * 1.001, {0.01f, 0.01f, 0.01f, 1}});
+            return samples;
+        })));
+    return moments;
+}
+
+// The share of a pixel that a disc of this radius covers in the mean, while its middle moves from x0 to x1 in its row.
+double share_of_path(double radius, double x0, double x1, double x, double y) {
+    constexpr int times = 400, across = 8;
+    int inside = 0;
+    for (int t = 0; t < times; ++t)
+        for (int i = 0; i < across * across; ++i) {
+            const double dx = x + (i % across + 0.5) / across - (x0 + (x1 - x0) * (t + 0.5) / times),
+                         dy = y + (i / across + 0.5) / across - (lamp_row + 0.5);
+            inside += dx * dx + dy * dy < radius * radius;
+        }
+    return inside / double(times * across * across);
+}
+
+TEST(TakeMoments, ALampThatMovesIsItsDiscConvolvedWithItsPath) {
+    constexpr double radius = 6;
+    constexpr int step = 20;
+    const Image picture = taken(moving_lamp(-radius, step)).image;
+    const double area = std::numbers::pi * radius * radius, from = lamp_from + 0.5 - step / 2.0,
+                 to = from + step * lamp_moments;
+    double light = 0;
+    for (int y = 0; y < 96; ++y)
+        for (int x = 20; x < 180; ++x) light += double(picture.at(0, x, y)) - 0.01;
+    EXPECT_NEAR(light, double(lamp_light), 0.005 * double(lamp_light));
+    const double even = double(lamp_light) * 2 * radius / area / (to - from); // in the middle of the streak
+    for (const int y : {lamp_row - 7, lamp_row - 4, lamp_row, lamp_row + 3})
+        for (int x = 16; x < 180; ++x)
+            EXPECT_NEAR(picture.at(0, x, y),
+                        0.01 + double(lamp_light) / area * share_of_path(radius, from, to, x, y), 0.03 * even)
+                << x << ' ' << y;
+}
+
+TEST(TakeMoments, ALampInFocusThatMovesIsAnEvenLine) {
+    constexpr int step = 12;
+    const Image picture = taken(moving_lamp(0, step)).image;
+    const double even = double(lamp_light) / (step * lamp_moments);
+    for (int x = lamp_from - step / 2 + 2; x < lamp_from + step * lamp_moments - step / 2 - 1; ++x)
+        EXPECT_NEAR(picture.at(0, x, lamp_row), even, 0.06 * even) << x;
+    EXPECT_LT(picture.at(0, lamp_from - step / 2 - 2, lamp_row), 0.02 * even);
 }
 
 TEST(TakeMoments, OneIsTheStill) {

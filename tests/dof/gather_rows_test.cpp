@@ -153,6 +153,26 @@ TEST_F(GatherRows, WhatIsSolidIsTheSame) {
     expect_same(window);
 }
 
+TEST_F(GatherRows, LampsThatMoveAreTheSame) {
+    std::vector<LampPart> lamps, in_bands;
+    options.gather.lens.lamps = &lamps;
+    gather_picture(ldi, lens, window, window, options, progress);
+    options.gather.lens.lamps = &in_bands;
+    gather_rows(packed(ldi), lens, window, window, options, {0, true}, progress);
+    ASSERT_FALSE(lamps.empty());
+    for (const LampPart &part : lamps) EXPECT_NE(std::ranges::find(in_bands, part), in_bands.end());
+    for (const LampPart &part : in_bands) EXPECT_NE(std::ranges::find(lamps, part), lamps.end());
+    options.gather.lens.lamps = nullptr;
+    LampPaths paths;
+    for (const LampPart &part : lamps)
+        if (part.light[0] > 100) paths.add(part, {{3, 40}, {0, 9}});
+    paths.sort();
+    const Image resting = gather_picture(ldi, lens, window, window, options, progress);
+    options.gather.lens.paths = &paths;
+    EXPECT_NE(resting.values, gather_picture(ldi, lens, window, window, options, progress).values);
+    expect_same(window);
+}
+
 TEST_F(GatherRows, LayersAreMergedAsTheyAreAtOnce) {
     ldi = tidy(
         random_ldi({.seed = 3, .width = width, .height = height, .most_samples = 8, .opaque_share = 0.2}));

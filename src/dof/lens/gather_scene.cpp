@@ -61,6 +61,17 @@ GatherScene placed(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
     return scene;
 }
 
+GatherScene placed_for(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                       const LensGatherOptions &options, double coc) {
+    return placed(ldi, lens, options.looks, coc, {options.known.value_or(window), options.unseen});
+}
+
+void take_highlights(GatherScene &scene, const LensGatherOptions &options) {
+    const LightChannels light = light_channels(*scene.ldi);
+    scene.highlights = take_highlights(scene.samples, light.brightness, light.all, scene.colours,
+                                       seen_of(options, scene.held_out.corner));
+}
+
 // Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them.
 template <typename Treat>
 void complete(GatherScene &scene, const Treat &treat, const Progress &progress) {
@@ -115,22 +126,31 @@ std::vector<char> unseen_cells(const GatherScene &scene, const Windows &small, i
 
 } // namespace
 
+void find_lamps(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                const LensGatherOptions &options, std::vector<LampPart> &lamps) {
+    GatherScene scene = placed_for(ldi, lens, window, options, 0);
+    if (is_sharp(scene.samples, *scene.optics)) return;
+    scene.colours = make_colours(ldi, scene.samples);
+    take_highlights(scene, options);
+    const std::vector<LampPart> found =
+        lamp_parts(scene.highlights, scene.samples, light_channels(ldi).brightness, scene.held_out.corner);
+    lamps.insert(lamps.end(), found.begin(), found.end());
+}
+
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, double coc, const Progress &progress) {
-    GatherScene scene =
-        placed(ldi, lens, options.looks, coc, {options.known.value_or(window), options.unseen});
+    GatherScene scene = placed_for(ldi, lens, window, options, coc);
     scene.held_out.by = options.holdout;
-    const Optics &optics = *scene.optics;
-    if (is_sharp(scene.samples, optics)) return scene;
+    if (is_sharp(scene.samples, *scene.optics)) return scene;
     progress.may_end();
     const auto treat = [&] {
         if (options.point) return;
-        const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
+        const SharpenLooks looks{scene.optics->aperture, scene.optics->field, coc, options.seen};
         sharpen_near_focus(ldi, lens, scene.samples, scene.colours, &looks);
         progress.may_end();
-        const LightChannels light = light_channels(ldi);
-        scene.highlights = take_highlights(scene.samples, light.brightness, light.all, scene.colours,
-                                           seen_of(options, scene.held_out.corner));
+        take_highlights(scene, options);
+        if (options.paths)
+            spread_along(*options.paths, scene.samples, scene.held_out.corner, scene.highlights);
     };
     complete(scene, treat, progress);
     if (options.point) paint(scene.fillers.colours, scene.colours.sets, ldi.alpha());

@@ -12,6 +12,7 @@
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace sparselens {
@@ -40,9 +41,23 @@ struct GatherScene {
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, double coc = 0, const Progress &progress = {});
 
+// Adds the highlights of a picture to `lamps`: those that prepare() finds, except that it may sharpen them first.
+void find_lamps(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                const LensGatherOptions &options, std::vector<LampPart> &lamps);
+
 // Returns the scene at 1 / across of its size, for tiles so far out of focus that they are gathered in cells of
 // `across` pixels, across and down (cells.h). It has no highlights, because their discs are exact, and nothing is
 // sharpened. The scene must have no holdout.
 GatherScene coarse_scene(const GatherScene &scene, int across);
+
+// Calls visit(group) for the groups of highlights that are moved (highlight_groups.h) and may reach the tile whose first
+// pixel is `origin`, relative to the data window's corner.
+template <typename Visit>
+void for_each_moved(const GatherScene &scene, const Imath::V2i &origin, const Visit &visit) {
+    const Imath::V2d half = scene.optics->aperture.half_extent();
+    Imath::Box2f pixels(Imath::V2f(origin), Imath::V2f(origin + Imath::V2i(lens_tile_size)));
+    if (scene.optics->field.skews()) pixels.makeInfinite(); // light may reach farther
+    scene.highlights.groups.for_each_moved(pixels, std::max(half.x, half.y * scene.pixel_aspect()), visit);
+}
 
 } // namespace sparselens

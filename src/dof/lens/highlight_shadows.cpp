@@ -71,7 +71,8 @@ void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint
 
 Imath::V2f HighlightShadows::place(std::uint32_t highlight) const {
     const std::uint32_t i = highlights_.sample[highlight];
-    return {samples_.x[i], samples_.y[i]};
+    const Imath::V2f at(samples_.x[i], samples_.y[i]);
+    return highlights_.moved.empty() ? at : at + highlights_.moved[highlight];
 }
 
 Lamp HighlightShadows::lamp(std::uint32_t highlight) const {

@@ -55,11 +55,12 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
     shadows_.begin(origin, blocks, solids, scene_.pixel_aspect(), half_extent_, coarse, lists);
-    for (const std::uint32_t b : blocks)
-        highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
-            if (!scene_.optics->field.skews()) return spread_group(group);
-            for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
-        });
+    const auto spread_all = [&](std::span<const std::uint32_t> group) {
+        if (!scene_.optics->field.skews()) return spread_group(group);
+        for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
+    };
+    for (const std::uint32_t b : blocks) highlights_.groups.for_each(b, spread_all);
+    for_each_moved(scene_, origin, spread_all);
     add_lit();
 }
 

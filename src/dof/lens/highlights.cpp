@@ -140,14 +140,30 @@ std::vector<Found> HighlightFinder::find() const {
     return all;
 }
 
+SampleColours no_light(std::size_t groups, std::size_t count) {
+    return {groups, count, LargeArray<float>(groups * count * 4, 0.0f)};
+}
+
+Imath::V2f place_of(const BlockedSamples &samples, std::uint32_t i, const Imath::V2i &corner) {
+    return Imath::V2f(samples.x[i], samples.y[i]) + Imath::V2f(corner);
+}
+
+// How many discs make the streak of a lamp, so that they overlap by most of their width.
+int pieces_along(const LampMotion &motion, float coc) {
+    const float step = std::max(GatherTuning::lamp_step_px, GatherTuning::lamp_step_of_coc * std::abs(coc)),
+                length =
+                    (motion.at(0.5f) - motion.at(0)).length() + (motion.at(0) - motion.at(-0.5f)).length();
+    return std::clamp(int(std::ceil(length / step)), 1, GatherTuning::most_lamp_steps);
+}
+
 } // namespace
 
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen) {
     const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
-    Highlights highlights{
-        {}, {}, {colours.groups, all.size(), LargeArray<float>(colours.groups * all.size() * 4, 0.0f)}, {}};
+    Highlights highlights;
+    highlights.light = no_light(colours.groups, all.size());
     for (const Found &f : all) {
         for (const std::size_t k : colour_channels) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);
@@ -156,8 +172,53 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
         highlights.sample.push_back(f.sample);
         highlights.share.push_back(f.share);
     }
-    highlights.groups = HighlightGroups(samples, highlights.sample);
+    highlights.groups = HighlightGroups(samples, highlights.sample, highlights.moved);
     return highlights;
+}
+
+std::vector<LampPart> lamp_parts(const Highlights &highlights, const BlockedSamples &samples,
+                                 std::span<const std::size_t> brightness, const Imath::V2i &corner) {
+    std::vector<LampPart> parts;
+    for (std::size_t n = 0; n < highlights.sample.size(); ++n) {
+        const std::uint32_t i = highlights.sample[n];
+        LampPart part{place_of(samples, i, corner), samples.depth(i), {}};
+        for (std::size_t k = 0; k < std::min(brightness.size(), part.light.size()); ++k)
+            part.light[k] = highlights.light.at(brightness[k], n);
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+void spread_along(const LampPaths &paths, const BlockedSamples &samples, const Imath::V2i &corner,
+                  Highlights &highlights) {
+    struct Piece {
+        std::size_t of;
+        Imath::V2f moved;
+        float part;
+    };
+    std::vector<Piece> pieces;
+    for (std::size_t n = 0; n < highlights.sample.size(); ++n) {
+        const std::uint32_t i = highlights.sample[n];
+        const LampMotion *motion = paths.of(place_of(samples, i, corner), samples.depth(i));
+        const int count = motion ? pieces_along(*motion, samples.coc[i]) : 1;
+        for (int piece = 0; piece < count; ++piece) {
+            const float time = (float(piece) + 0.5f) / float(count) - 0.5f;
+            pieces.push_back({n, motion ? motion->at(time) : Imath::V2f(0), 1 / float(count)});
+        }
+    }
+    if (pieces.size() == highlights.sample.size()) return; // none moves far enough
+    Highlights spread;
+    spread.light = no_light(highlights.light.groups, pieces.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const auto &[of, moved, part] = pieces[p];
+        spread.sample.push_back(highlights.sample[of]);
+        spread.moved.push_back(moved);
+        spread.share.push_back(part * highlights.share[of]);
+        for (std::size_t k = 0; k < spread.light.groups * 4; ++k)
+            spread.light.at(k, p) = part * highlights.light.at(k, of);
+    }
+    spread.groups = HighlightGroups(samples, spread.sample, spread.moved);
+    highlights = std::move(spread);
 }
 
 } // namespace sparselens

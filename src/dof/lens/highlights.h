@@ -9,8 +9,10 @@
 #include "dof/lens/highlight_groups.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
+#include "shutter/lamp_paths.h"
 
 #include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +22,8 @@
 namespace sparselens {
 
 struct Highlights {
-    std::vector<std::uint32_t> sample; // indices into the BlockedSamples, ascending
+    std::vector<std::uint32_t> sample; // indices into the BlockedSamples, ascending; several may be the same
+    std::vector<Imath::V2f> moved;     // how far the light is from its sample, pixels; empty: none is moved
     std::vector<float> share;          // share of its light that each spreads, (0, 1]
     SampleColours light;               // what each spreads; none in A
     HighlightGroups groups;            // of those samples
@@ -38,5 +41,13 @@ struct Highlights {
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen = {});
+
+// The highlights as parts of lamps. `corner`: of the data window, EXR coordinates.
+std::vector<LampPart> lamp_parts(const Highlights &highlights, const BlockedSamples &samples,
+                                 std::span<const std::size_t> brightness, const Imath::V2i &corner);
+
+// Spreads the light of the highlights that move along their paths: each becomes several, whose discs overlap.
+void spread_along(const LampPaths &paths, const BlockedSamples &samples, const Imath::V2i &corner,
+                  Highlights &highlights);
 
 } // namespace sparselens

@@ -174,6 +174,10 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
         lens.radius = GatherTuning::sharp_px * lens.focus / lens.focal_px;
         options.looks.cat_eye = 0; // there is nothing to cut
     }
+    if (options.lamps) {
+        find_lamps(ldi, lens, window, options, *options.lamps);
+        return Image({ldi.windows.display, window, ldi.windows.pixel_aspect}, ldi.channels);
+    }
     Image out = gather_once(ldi, lens, window, options, 0, progress);
     const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
     const std::array<double, 3> &cocs = options.looks.chromatic_coc;

@@ -11,12 +11,14 @@
 #include "../../deep/ldi.h"
 #include "../../lens/lens_looks.h"
 #include "../../lens/thin_lens.h"
+#include "../../shutter/lamp_paths.h"
 #include "../../shutter/lens_share.h"
 #include "lens_tiles.h"
 
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sparselens {
 
@@ -37,6 +39,9 @@ struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
     LensShare share = {}; // of these points, for one moment of a shutter
+    // If given, the highlights (highlights.h) are added to it as parts of lamps, and the picture stays black.
+    std::vector<LampPart> *lamps = nullptr;
+    const LampPaths *paths = nullptr; // if given: of these lamps, along which they are spread
     // If given, only this point of the lens is used, x right, y up, [-1, 1]. Lamps stay as they are, nothing is
     // sharpened, fillers (areas that no view saw) are tinted magenta, and unknown areas stay black.
     std::optional<Imath::V2d> point = {};

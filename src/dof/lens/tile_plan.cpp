@@ -87,6 +87,12 @@ PlannedTile TilePlan::place_of(std::size_t number) const {
     return {number, t, {part, part + Imath::V2i(part_size - 1)}, picture_.data.min + corner * lens_tile_size};
 }
 
+bool TilePlan::moved_light_reaches(const PlannedTile &tile) const {
+    bool any = false;
+    for_each_moved(scene_, tile.first - optics_.corner, [&](std::span<const std::uint32_t>) { any = true; });
+    return any;
+}
+
 // Also finds the blocks of the tile. Returns nothing if the tile is in focus or not asked for.
 std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
     const Imath::Box2i pixels(tile.first, tile.first + Imath::V2i(lens_tile_size - 1));
@@ -101,7 +107,7 @@ std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
     const ReachingCocs cocs = blocks.find(tile.first - optics_.corner - Imath::V2i(beside),
                                           lens_tile_size + 2 * beside, steepest, tile.blocks);
     const float largest = cocs.largest * optics_.widest() + float(displaced);
-    if (largest < GatherTuning::in_focus_px && !optics_.moves()) return {};
+    if (largest < GatherTuning::in_focus_px && !optics_.moves() && !moved_light_reaches(tile)) return {};
     // The edge of a transparent background would be as coarse as the cells.
     const bool cells = has_cells(options_, optics_) && !cocs.with_background;
     return Blur{largest, steepest,

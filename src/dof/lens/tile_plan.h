@@ -42,8 +42,8 @@ public:
     std::vector<const GatherScene *> scenes() const;
     // The numbers of the tiles, from the watched pixel outwards if there is a watch.
     std::vector<std::size_t> in_order() const;
-    // Returns nothing if the tile is in focus or not asked for, because the flattened LDI is already there. May be
-    // called by any thread.
+    // Returns nothing if the tile is in focus or not asked for, because the flattened LDI is already there; a tile that
+    // a lamp's streak reaches is not in focus. May be called by any thread.
     std::optional<PlannedTile> tile(std::size_t number);
 
 private:
@@ -66,6 +66,7 @@ private:
     };
     PlannedTile place_of(std::size_t number) const;
     std::optional<Blur> blur_of(PlannedTile &tile) const;
+    bool moved_light_reaches(const PlannedTile &tile) const;
     std::vector<int> cells_asked_for() const;
     void gather_from(const Level &level, const Blur &blur, PlannedTile &tile);
 
