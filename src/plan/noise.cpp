@@ -1,7 +1,7 @@
 #include "plan/noise.h"
 
 #include "base/parallel.h"
-#include "base/tone_map.h"
+#include "plan/brightness.h"
 #include "plan/tuning.h"
 
 #include <algorithm>
@@ -15,20 +15,6 @@ namespace sparselens {
 namespace {
 
 constexpr int block_size = 8;
-
-// Tone-mapped mean of the colours that the image has.
-std::vector<double> brightness(const Image &image) {
-    std::vector<double> mean(image.windows.pixels());
-    double channels = 0;
-    for (const std::size_t channel : find_rgb(image.channels)) {
-        if (channel == npos) continue;
-        ++channels;
-        const auto plane = image.plane(channel);
-        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += tone_mapped(plane[i]);
-    }
-    for (double &value : mean) value /= std::max(channels, 1.0);
-    return mean;
-}
 
 // Variance of the noise in the block at (x, y), which lies inside the picture's border, measured by second differences
 // in steps of `step` pixels; 0 if they are not Gaussian.

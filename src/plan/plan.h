@@ -42,6 +42,12 @@ struct Plan {
     double share() const; // all views together, as a share of one full view
 };
 
+// How many moments of a shutter a picture with motion blur needs (moments_needed.h).
+struct MomentsNeed {
+    double motion = 0; // how far things move while the shutter is open, pixels of the picture
+    int moments = 1;   // 1: the blur of this motion does not show
+};
+
 // The candidates are eight or more views, spaced evenly on the rim. The even ring of `views` of them, which begins at
 // the right, is taken unless others uncover noticeably more; views that add nothing are left out. `centre` stands at
 // the origin.

@@ -40,6 +40,37 @@ struct PlanTuning {
     // view.
     static constexpr int edge_hereabouts = 12;
 
+    // Pixels across to which pictures are at most reduced to find motion in them.
+    static constexpr int motion_width = 480;
+    // The longest motion that is found, as one over this part of the width.
+    static constexpr int motion_reach = 10;
+    // Factor between the depths of one surface at two times, or in adjacent pixels.
+    static constexpr double depths_of_surface = 1.25;
+    // Reduced pixels of a block that its surface must have, and the share of them that the other picture must show.
+    static constexpr double least_surface = 16, least_seen_again = 0.5;
+    // Variance of the tone-mapped brightness of a block, from which it has texture.
+    static constexpr double least_texture = 2e-3;
+    // Mean square of the difference, as a factor of a block's variance, up to which the block is found again.
+    static constexpr double most_unlike = 0.125;
+    // Factor on the least difference, up to which a displacement is as good as the best one.
+    static constexpr double equally_good = 1.5;
+    // Reduced pixels by which the way back may miss the block that it came from.
+    static constexpr double way_back = 1.5;
+    // Blocks around one that must have moved alike, ...
+    static constexpr int least_alike = 2;
+    // ... within so many reduced pixels and this share of the motion.
+    static constexpr double alike_pixels = 1, alike_share = 0.2;
+
+    // Pixels: the longest step between two moments of a shutter of what is in focus, ...
+    static constexpr double step_in_focus = 2;
+    // ... and how much longer it may be for each pixel of the radius of the CoC. fair, whose wheel and ball move by 13
+    // pixels at 320x180, has 33.4 dB with 4 moments, 34.7 with 5, 35.3 with 6, 35.5 with 8 and 35.2 with 16; these steps
+    // ask for 6. At 640x360 (4: 33.3, 8: 38.0, 16: 38.2) they ask for 10 to 13. grass from a camera that moves in by 0.4
+    // (4: 41.3, 6: 42.1, 8: 42.6, 16: 42.1): 8.
+    static constexpr double step_of_coc = 0.75;
+    // Share of the blocks whose motion counts that may need more moments: some are found in a wrong place.
+    static constexpr double few_blocks = 0.01;
+
     // Cost of a rectangle besides its pixels, in pixels: two are joined if that wastes less.
     static constexpr double rectangle_overhead = 256;
     // Pixels: more empty columns separate two rectangles of a band of rows, more empty rows separate two bands.

@@ -47,6 +47,7 @@ dof/selective/blend.h sums_before_colours
 dof/selective/selective.cpp at_once
 dof/selective/splat_blocks.cpp square_size
 dof/selective/splats.h too_little
+plan/block_motion.cpp block_size
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
 warp/images/matched_view.h cutout
