@@ -1,6 +1,7 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "base/error.h"
 #include "chain/file_notices.h"
+#include "chain/plan_moments.h"
 #include "chain/plan_views.h"
 #include "chain/usd_shot.h"
 #include "harness/commands/named_files.h"
@@ -8,12 +9,15 @@
 #include "harness/tool.h"
 #include "io/cameras_file.h"
 #include "io/files/text_file.h"
+#include "io/moment_files.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 using namespace sparselens;
 
@@ -55,13 +59,32 @@ void say(const RayDivision &division, std::FILE *out) {
                    division.per_render);
 }
 
-Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
+void say(const std::optional<MomentsNeed> &need, std::FILE *out) {
+    if (!need)
+        fmt::print(out,
+                   "moments of the shutter: these pictures have no texture that tells how far things move\n");
+    else if (need->moments == 1)
+        fmt::print(out, "things move by {:.1f} pixels while the shutter is open: one moment is enough\n",
+                   need->motion);
+    else
+        fmt::print(out,
+                   "things move by up to {:.1f} pixels while the shutter is open: with {} moments, the steps "
+                   "between them do not show\n",
+                   need->motion, need->moments);
+}
+
+Stats plan_stats(const Plan &plan, int views_allowed, const PlanSetting &setting) {
     std::size_t asked = 0;
     for (const PlannedView &view : plan.views) asked += view.mask.count();
-    return {{"views", plan.views.size()},
-            {"views_left_out", std::size_t(views_allowed) - plan.views.size()},
-            {"pixels", asked},
-            {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
+    Stats stats{{"views", plan.views.size()},
+                {"views_left_out", std::size_t(views_allowed) - plan.views.size()},
+                {"pixels", asked},
+                {"pixels_left_out", std::size_t(views_allowed) * setting.windows.pixels() - asked}};
+    if (setting.moments) {
+        stats["moments"] = setting.moments->moments;
+        stats["motion"] = setting.moments->motion;
+    }
+    return stats;
 }
 
 void write_layer(const PlanCommand &options, UsdViews &views) {
@@ -102,29 +125,49 @@ void write_planned(const PlanCommand &options, const ToolContext &tool, const Pl
     write_layer(options, all_frames);
 }
 
+// The same options for the centre view of a moment.
+PlanCommand for_moment(PlanCommand options, const std::string &moment) {
+    for (std::string *name : {&options.centre, &options.depth.picture.depth_file})
+        *name = at_moment(*name, moment);
+    return options;
+}
+
+OpenedView open_centre(const PlanCommand &options, const StatedCameras &stated) {
+    const std::optional<FilmCamera> film = stated.of_centre(options.centre);
+    OpenedView centre = open_view(options.centre, {options.lens, options.depth, film});
+    if (const auto warning = stated_warning(film, options.lens)) centre.warnings.push_back(*warning);
+    return centre;
+}
+
 // `all_frames`: the cameras of the frames before, which one layer of USD holds.
-void run(const PlanCommand &options, const ToolContext &tool, UsdViews &all_frames) {
+void run(const PlanCommand &asked_for, const ToolContext &tool, UsdViews &all_frames) {
+    const bool several = names_moments(asked_for.centre);
+    const auto moments = several ? moments_on_disk(asked_for.centre) : std::vector<std::string>{};
+    const PlanCommand options = several ? for_moment(asked_for, moments[moments.size() / 2]) : asked_for;
     if (options.centre.empty()) return write_shot(options, tool, all_frames);
     if (options.output.empty())
         throw UsageError("`output` is required: the plan to write, or - for standard output");
     CameraRequest asked = options.camera;
     if (!asked.frame) asked.frame = tool.frame;
     const StatedCameras stated(asked);
-    const std::optional<FilmCamera> film = stated.of_centre(options.centre);
-    OpenedView centre = open_view(options.centre, {options.lens, options.depth, film});
-    if (const auto warning = stated_warning(film, options.lens)) centre.warnings.push_back(*warning);
+    const OpenedView centre = open_centre(options, stated);
     tell_reading(tool.tell(), options.centre, centre.notes, centre.warnings);
     tell_invalid_values(tool.tell(), options.centre, centre.bad);
     PlannedViews made = plan_views(centre, options.plan, options.lens, options.supersample, options.rays,
                                    *tool.progress, tool.tell());
     made.setting.centre = options.centre;
+    if (moments.size() > 1)
+        made.setting.moments = plan_moments(open_centre(for_moment(asked_for, moments.front()), stated),
+                                            open_centre(for_moment(asked_for, moments.back()), stated),
+                                            moments.size(), made, options.lens);
     const auto &[plan, setting, camera] = made;
     write_plan(options.output, plan, setting, options.masks);
     if (!options.cameras.empty()) write_planned(options, tool, made, stated, all_frames);
-    write_stats(tool, plan_stats(plan, options.plan.views, setting.windows));
+    write_stats(tool, plan_stats(plan, options.plan.views, setting));
     std::FILE *const out = options.output == "-" ? stderr : stdout;
     summarise(plan, centre.view, out);
     if (setting.division) say(*setting.division, out);
+    if (moments.size() > 1) say(setting.moments, out);
 }
 
 } // namespace
@@ -137,6 +180,8 @@ int main(int argc, char **argv) {
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<PlanCommand>();
             add_plan_options(app, *options);
-            return Job{[options, &all_frames](const ToolContext &tool) { run(*options, tool, all_frames); }};
+            return Job{
+                .work = [options, &all_frames](const ToolContext &tool) { run(*options, tool, all_frames); },
+                .joins_moments = true};
         });
 }

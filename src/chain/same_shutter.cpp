@@ -29,27 +29,31 @@ std::optional<Imf::Chromaticities> chromaticities_of(const Imf::Header &header) 
     return Imf::hasChromaticities(header) ? std::optional(Imf::chromaticities(header)) : std::nullopt;
 }
 
-[[noreturn]] void refuse(const NamedPicture &first, const NamedPicture &other, const std::string &what) {
-    throw Error(fmt::format("{}: {} than {}; the moments of a shutter are of one shot", other.name, what,
-                            first.name));
+[[noreturn]] void refuse(const std::string &first, const std::string &other, const std::string &what) {
+    throw Error(fmt::format("{}: {} than {}; the moments of a shutter are of one shot", other, what, first));
 }
 
 } // namespace
 
+void require_same_size(const NamedWindows &first, const NamedWindows &other) {
+    const Windows &size = first.windows, &others = other.windows;
+    if (size.display != others.display)
+        refuse(first.name, other.name, fmt::format("its size of {} is another", size_of(others)));
+    if (size.pixel_aspect != others.pixel_aspect)
+        refuse(first.name, other.name,
+               fmt::format("its pixel aspect of {:g} is another", others.pixel_aspect));
+}
+
 void require_same_shutter(const NamedPicture &first, const NamedPicture &other) {
     const TakenPicture &a = first.picture, &b = other.picture;
-    const Windows &size = a.image.windows, &others = b.image.windows;
-    if (size.display != others.display)
-        refuse(first, other, fmt::format("its size of {} is another", size_of(others)));
-    if (size.pixel_aspect != others.pixel_aspect)
-        refuse(first, other, fmt::format("its pixel aspect of {:g} is another", others.pixel_aspect));
-    if (a.image.channels != b.image.channels) refuse(first, other, "it has other channels");
-    if (chromaticities_of(a.header) != chromaticities_of(b.header))
-        refuse(first, other, "it is in another colour space");
+    require_same_size({first.name, a.image.windows}, {other.name, b.image.windows});
+    const auto refused = [&](const std::string &what) { refuse(first.name, other.name, what); };
+    if (a.image.channels != b.image.channels) refused("it has other channels");
+    if (chromaticities_of(a.header) != chromaticities_of(b.header)) refused("it is in another colour space");
     if (is_far_from(a.lens.focal_px, b.lens.focal_px))
-        refuse(first, other, fmt::format("its focal length of {:g} pixels is another", b.lens.focal_px));
+        refused(fmt::format("its focal length of {:g} pixels is another", b.lens.focal_px));
     if (is_far_from(a.lens.radius, b.lens.radius))
-        refuse(first, other, fmt::format("its lens radius of {:g} is another", b.lens.radius));
+        refused(fmt::format("its lens radius of {:g} is another", b.lens.radius));
 }
 
 void require_moment(const NamedPicture &one, std::size_t moment, std::size_t moments) {

@@ -13,6 +13,14 @@ struct NamedPicture {
     const TakenPicture &picture;
 };
 
+struct NamedWindows {
+    std::string name; // of its file, for messages
+    const Windows &windows;
+};
+
+// Throws Error, naming both files, if they differ in size.
+void require_same_size(const NamedWindows &first, const NamedWindows &other);
+
 // Throws Error, naming both files, if they differ in size, channels or colour space, or by more of the lens than can
 // change while a shutter is open.
 void require_same_shutter(const NamedPicture &first, const NamedPicture &other);

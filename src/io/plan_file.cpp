@@ -134,6 +134,10 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
                         {"supersample", rays->supersample},
                         {"samples", rays->samples},
                         {"per_render", rays->per_render}};
+    if (const auto &need = setting.moments) {
+        json["moments"] = need->moments;
+        json["motion"] = need->motion;
+    }
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const std::string name = fmt::format("view_{}", k);
         Json view = json_of(plan.views[k], name, lens);

@@ -5,6 +5,7 @@
 //    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
 //    "edges": S, "supersample": 1 | 2,
 //    "rays": {"views": N, "supersample": N, "samples": N, "per_render": N}, with a budget to divide (divide_rays.h),
+//    "moments": N, "motion": PX, if the centre views of several moments tell (moments_needed.h),
 //    "overscan": {"left": PX, "top": PX, "right": PX, "bottom": PX},
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
@@ -30,6 +31,7 @@ struct PlanSetting {
     int margin;
     int across = 1; // pixels of the centre view, across and down, per pixel of the picture
     std::optional<RayDivision> division = {}; // of a budget of rays
+    std::optional<MomentsNeed> moments = {};  // of a shutter
 };
 
 // `masks` is a folder, created if missing, or empty for no masks.

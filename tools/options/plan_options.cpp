@@ -41,7 +41,9 @@ Imath::V2i size_of(const std::string &text) {
 void add_plan_options(CLI::App &app, PlanCommand &options) {
     app.add_option(
            "CENTER", options.centre,
-           "Centre view, with colour and depth (EXR); without it, --camera and --cameras write cameras alone")
+           "Centre view, with colour and depth (EXR); with %s in its name, those of a shutter's moments, "
+           "which "
+           "also tell how many moments it needs; without it, --camera and --cameras write cameras alone")
         ->type_name("");
     app.add_option("-o,--output", options.output, "Plan to write; - for standard output")
         ->type_name("PLAN.json");
