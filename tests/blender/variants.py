@@ -116,6 +116,16 @@ def make_pan(scene, camera):
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5
 
 
+def make_spin(scene, camera):
+    """The ball turns by 0.2 in the frame, and a post in front of it by 0.1."""
+    for name, turn in (("Sphere", 2), ("Cube.003", 1)):
+        thing = scene.objects[name]
+        x, y, z = thing.rotation_euler
+        key(thing, "rotation_euler", (x, y - turn / 2, z), (x, y + turn / 2, z))
+        straight(thing)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5
+
+
 def make_film(scene, camera):
     """Without the wall: behind the floor's edge there is nothing."""
     bpy.data.objects.remove(scene.objects["Plane.001"])
