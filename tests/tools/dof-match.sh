@@ -42,11 +42,11 @@ exits 0 "$match" ldi.exr plate.exr --json --fit focus --fstop 0.17
 holds fstop 0.17 0.17
 
 # The camera: with twice the focal length in pixels, half the lens blurs as much.
-exits 0 "$match" ldi.exr plate.exr --json --focal-length 72 --lens-radius 0.08
+exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3 --focal-length 72 --lens-radius 0.08
 holds lens_radius 0.0665 0.0735
-exits 0 "$match" ldi.exr plate.exr --json --sensor-width 18 --lens-radius 0.08
+exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3 --sensor-width 18 --lens-radius 0.08
 holds lens_radius 0.0665 0.0735
-exits 0 "$match" ldi.exr plate.exr --json --scene-unit 0.1 --focus-distance 3 --lens-radius 0.16
+exits 0 "$match" ldi.exr plate.exr --json --fit fstop --scene-unit 0.1 --focus-distance 3 --lens-radius 0.16
 holds fstop 1.22 1.35
 
 # From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
