@@ -75,13 +75,14 @@ in_blender wide.blend -P "$views" -- -o auto --shutter 2 --frame 3 --samples 7 -
 ! exrheader auto/center_0.exr | grep -F 'ldi.supersample' >/dev/null || fail "--supersample auto: 7 samples for 8 sub-pixels"
 
 # Pictures: within a decibel of Cycles' own motion blur as the still is of Cycles' still, and nearer to it than the still.
-for kind in pan; do
-    in_blender $kind.blend -P "$variants" -- render 512 3 3 "$PWD/$kind.####.exr"
+variant small spin
+for kind in pan spin; do
+    in_blender $kind.blend -P "$variants" -- render 256 3 3 "$PWD/$kind.####.exr"
     in_blender $kind.blend --python-expr "import bpy; bpy.context.scene.render.use_motion_blur = False
 bpy.ops.wm.save_as_mainfile(filepath='$PWD/sharp.blend')"
-    in_blender sharp.blend -P "$variants" -- render 512 3 3 "$PWD/sharp.####.exr"
-    in_blender sharp.blend -P "$views" -- -o $kind.still.exr --picture --frame 3 --samples 32 --tools "$bin" --views-folder still
-    in_blender $kind.blend -P "$views" -- -o $kind.exr --picture --frame 3 --samples 32 --tools "$bin" --shutter 4 --views-folder moments
+    in_blender sharp.blend -P "$variants" -- render 256 3 3 "$PWD/sharp.####.exr"
+    in_blender sharp.blend -P "$views" -- -o $kind.still.exr --picture --frame 3 --samples 64 --tools "$bin" --views-folder still
+    in_blender $kind.blend -P "$views" -- -o $kind.exr --picture --frame 3 --samples 64 --tools "$bin" --shutter 4 --views-folder moments
     own=$(decibels $kind.still.exr sharp.0003.exr) still=$(decibels $kind.still.exr $kind.0003.exr)
     moments=$(decibels $kind.exr $kind.0003.exr)
     echo "$kind: four moments $moments dB; still $own dB, beside the motion $still dB"
