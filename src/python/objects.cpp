@@ -276,6 +276,18 @@ void bind_plan(py::module_ &module) {
             },
             doc::Plan::rays)
         .def_property_readonly(
+            "moments",
+            [](const PlanObject &o) -> std::optional<int> {
+                return o.setting.moments ? std::optional(o.setting.moments->moments) : std::nullopt;
+            },
+            doc::Plan::moments)
+        .def_property_readonly(
+            "motion",
+            [](const PlanObject &o) -> std::optional<double> {
+                return o.setting.moments ? std::optional(o.setting.moments->motion) : std::nullopt;
+            },
+            doc::Plan::motion)
+        .def_property_readonly(
             "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); },
             doc::Plan::noise_db)
         .def_property_readonly(

@@ -296,6 +296,12 @@ class Plan:
         """How plan() divided its rays: views, how many; supersample, times the size at which to render them; samples, of
         each of their pixels; per_render, rays of each of two renders through the lens, 0 if views take all."""
     @property
+    def moments(self) -> Optional[int]:
+        """How many moments of a shutter the picture needs; None if plan() got one view, or nothing has texture."""
+    @property
+    def motion(self) -> Optional[float]:
+        """How far things move while the shutter is open, pixels of the picture; None as for moments."""
+    @property
     def noise_db(self) -> float:
         """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf if there is none."""
     @property
@@ -623,7 +629,7 @@ def show(
     Raises UsageError if the lens is unknown; layers needs no lens."""
 
 def plan(
-    view: View,
+    view: Union[View, Sequence[View]],
     *,
     views: int = 4,
     margin: int = 2,
@@ -636,7 +642,8 @@ def plan(
     """Plans which views from the rim of the lens, and which of their pixels, are worth rendering; returns a Plan. Does
     what ldi-plan does.
 
-    view: the centre View. views: the largest number of views. margin: pixels added around what it does not see.
+    view: the centre View, or a sequence of those of a shutter's moments, which also gives Plan.moments.
+    views: the largest number of views. margin: pixels added around what the centre view does not see.
     noise: standard deviation of the noise of a tone-mapped pixel (default: measured).
     supersample: this many pixels of the view, across and down, become one pixel of the picture (default: as the view
       says, else 1).

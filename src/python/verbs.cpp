@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
+#include "chain/plan_moments.h"
 #include "chain/regions.h"
 #include "chain/take_picture.h"
 #include "deep/flatten.h"
@@ -197,7 +198,9 @@ PictureObject show(const py::object &ldi, const py::object &what, const py::kwar
 
 PlanObject plan(const py::object &view, const py::kwargs &given) {
     Keywords keywords("plan", given);
-    const OpenedView &centre = argument<ViewObject>(view, "view", a_view).in;
+    const auto moments =
+        several<ViewObject>(view, "view", "a View, or a sequence of the moments of a shutter");
+    const OpenedView &centre = moments[moments.size() / 2]->in;
     PlanOptions options;
     options.views = keywords.whole("views", 0, 64).value_or(options.views);
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
@@ -209,6 +212,9 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     keywords.done();
     return told_job<PlanObject>(progress, [&](Progress &said, const Tell &tell) -> PlanObject {
         PlannedViews made = plan_views(centre, options, lens, across, rays, said, tell);
+        if (moments.size() > 1)
+            made.setting.moments =
+                plan_moments(moments.front()->in, moments.back()->in, moments.size(), made, lens);
         return {std::move(made.plan), std::move(made.setting)};
     });
 }

@@ -282,6 +282,17 @@ def test_channels(clustered, tool, tmp_path, channels):
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
 
 
+def test_plan_of_moments(tool, tmp_path):
+    tool("dof-trace", "fair", "--size", "160x90", "--spp", 8, "--views", 0, "--moments", 2, "-o", tmp_path)
+    tool("ldi-plan", tmp_path / "center_%s.exr", "-o", tmp_path / "tool.json")
+    plan = sparselens.plan([sparselens.open_view(tmp_path / f"center_{moment}.exr") for moment in (0, 1)])
+    by_tool = json.loads((tmp_path / "tool.json").read_text())
+    assert plan.moments == by_tool["moments"] > 1
+    assert plan.motion == pytest.approx(by_tool["motion"])
+    with pytest.raises(TypeError, match="a View, or a sequence of the moments of a shutter"):
+        sparselens.plan([1])
+
+
 def test_plan(views, names, tool, tmp_path):
     tool("ldi-plan", names[0], "--views", 3, "--margin", 1, "--rays", 320, "--masks", tmp_path / "tool",
          "-o", tmp_path / "tool.json")
@@ -292,6 +303,7 @@ def test_plan(views, names, tool, tmp_path):
     with pytest.raises(sparselens.UsageError, match="too few"):
         sparselens.plan(views[0], views=3, rays=1)
     sparselens.write(tmp_path / "python.json", plan, masks=tmp_path / "python")
+    assert plan.moments is None and plan.motion is None
     by_tool = json.loads((tmp_path / "tool.json").read_text())
     by_python = json.loads((tmp_path / "python.json").read_text().replace("python/", "tool/"))
     assert by_python == by_tool
