@@ -170,6 +170,11 @@ LampMotion motion_of(std::span<const MomentLamps> moments, std::size_t m, std::s
     return back;
 }
 
+void keep_brightest(std::vector<WholeLamp> &lamps) {
+    std::ranges::stable_sort(lamps, [](const auto &a, const auto &b) { return a.sum() > b.sum(); });
+    if (lamps.size() > Tuning::most_lamps) lamps.resize(Tuning::most_lamps);
+}
+
 MomentLamps lamps_in(std::vector<LampPart> parts) {
     const auto key = [](const LampPart &part) {
         return std::tuple(order_of(part.at, part.depth), part.light);
@@ -179,7 +184,7 @@ MomentLamps lamps_in(std::vector<LampPart> parts) {
     if (parts.size() > Tuning::most_parts) parts.clear();
     MomentLamps moment{std::move(parts), {}, {}, {}};
     moment.lamps = lamps_of(moment.parts);
-    if (moment.lamps.size() > Tuning::most_lamps) moment.lamps.clear();
+    keep_brightest(moment.lamps);
     moment.before.assign(moment.lamps.size(), none);
     moment.after.assign(moment.lamps.size(), none);
     return moment;

@@ -30,8 +30,10 @@ struct LampPathTuning {
     static constexpr float apart = 2;
     // The bend of a path, as a share of the velocity: a turn by 53 degrees from moment to moment.
     static constexpr float most_bend = 0.5f;
-    // Lamps of a moment, and their parts. More are a texture, and none of them is followed.
-    static constexpr std::size_t most_lamps = 4096, most_parts = 1 << 18;
+    // Lamps of a moment that are followed: the brightest. Noise in the dark stands out, too.
+    static constexpr std::size_t most_lamps = 4096;
+    // Parts of the lamps of a moment. More are a texture, and none of them is followed.
+    static constexpr std::size_t most_parts = 1 << 18;
     // Pixels for each moment. A lamp that moves less stays a disc.
     static constexpr float least_px = 0.25f;
 };

@@ -224,6 +224,20 @@ TEST(TakeMoments, ALampThatMovesIsItsDiscConvolvedWithItsPath) {
                 << x << ' ' << y;
 }
 
+// The pixels of a ball are not equally near. On their paths they do not hide each other.
+TEST(TakeMoments, ABallOfLightThatMovesKeepsItsLight) {
+    std::vector<OpenedLdi> moments;
+    for (int m = 0; m < lamp_moments; ++m)
+        moments.push_back(opened(make_ldi(windows_of_size(200, 96), rgba_channels(), [=](int x, int y) {
+            const int dx = x - lamp_from - 12 * m, dy = y - lamp_row, square = dx * dx + dy * dy;
+            if (square > 9) return std::vector<Sample>{{lens.focus, {0.01f, 0.01f, 0.01f, 1}}};
+            return std::vector<Sample>{{depth_of(lens, -5.5 + 0.05 * square), {lamp_light, 0, 0, 1}}};
+        })));
+    double light = 0;
+    for (const float red : taken(moments).image.plane(0)) light += double(red) - 0.01;
+    EXPECT_NEAR(light, 29 * double(lamp_light), 0.005 * 29 * double(lamp_light));
+}
+
 TEST(TakeMoments, ALampInFocusThatMovesIsAnEvenLine) {
     constexpr int step = 12;
     const Image picture = taken(moving_lamp(0, step)).image;

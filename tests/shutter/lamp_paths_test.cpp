@@ -152,12 +152,20 @@ TEST(LampPaths, DoNotDependOnTheOrderOfPartsOrHowOftenTheyAreListed) {
         }
 }
 
-TEST(LampPaths, ATextureIsNotFollowed) {
-    const auto lamps = [](int count) {
-        return moving(2, count, [=](int n, int m) { return Imath::V2d(8 * (n % 64) + 3 * m, 8 * (n / 64)); });
-    };
-    EXPECT_FALSE(find_lamp_paths(lamps(4096))[0].empty());
-    expect_still(lamps(4097));
+// Noise in the dark stands out as well: the brightest lamps are followed.
+TEST(LampPaths, ABrightLampIsFollowedAmongManyDimOnes) {
+    constexpr int columns = 80;
+    std::vector<Parts> parts(2);
+    for (int m = 0; m < 2; ++m)
+        for (int n = 0; n < int(LampPathTuning::most_lamps) + columns; ++n)
+            add_lamp(parts[std::size_t(m)], 10 * (n % columns) + 3 * m, 10 * (n / columns), {1, 1, 1});
+    const Imath::V2d bright(2000.5, 20.5);
+    add_lamp(parts[0], bright.x, bright.y);
+    add_lamp(parts[1], bright.x + 40, bright.y);
+    const std::vector<LampPaths> paths = find_lamp_paths(parts);
+    const LampMotion *motion = motion_at(paths[0], bright);
+    ASSERT_TRUE(motion);
+    EXPECT_NEAR(motion->velocity.x, 40, 1e-4);
 }
 
 } // namespace

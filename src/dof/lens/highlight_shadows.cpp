@@ -130,6 +130,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
 
 void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::Box2i &box) {
     shared_.any = false;
+    is_moved_ = !highlights_.moved.empty() && highlights_.moved[group.front()] != Imath::V2f(0, 0);
     group_.reset();
     apart_.clear();
     if (group.size() == 1) return;
@@ -210,6 +211,14 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
            !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
 }
 
+// Whether the caster is a part of the lamp, or of a lamp beside it, that stands where the lamp was before it moved.
+bool HighlightShadows::is_left_behind(std::uint32_t lamp_sample, const Caster &caster) const {
+    const BlockedSamples &of = caster.of->samples;
+    const std::uint32_t sample = of.named.empty() ? caster.joined->sample : of.named[caster.joined->sample];
+    return is_moved_ && caster.joined->depth <= one_lamp * samples_.depth(lamp_sample) &&
+           std::ranges::binary_search(highlights_.sample, sample);
+}
+
 // Whether the caster may cast a shadow on some member of the group.
 bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
     const ShadowCasters &casters = *caster.of;
@@ -233,6 +242,7 @@ void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Ra
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
     const float alpha = caster.of->samples.alpha[sample];
     const bool opaque = is_opaque(alpha); // as solids are
+    if (!caster.of->is_coarse() && is_left_behind(lamp.sample, caster)) return;
     if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, sample)) return;
     into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen);
 }

@@ -104,6 +104,7 @@ private:
     void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,
                   Shadow &into) const;
     bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
+    bool is_left_behind(std::uint32_t lamp_sample, const Caster &caster) const;
 
     const Highlights &highlights_;
     const BlockedSamples &samples_;
@@ -112,6 +113,7 @@ private:
     Imath::V2i origin_;
     double pixel_aspect_ = 1;
     Imath::V2d extent_{1, 1};
+    bool is_moved_ = false;             // whether the group is moved along a path
     std::optional<ShadowedLamp> group_; // set for a group of several samples
     std::vector<Caster> apart_;         // casters whose shadows differ between the members of the group
     Shadow shared_, own_;
