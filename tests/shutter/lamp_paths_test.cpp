@@ -100,11 +100,12 @@ TEST(LampPaths, ARowOfLampsIsFollowedByTheShorterWay) {
     }
 }
 
-// A lamp that is hidden from one moment to the next is not taken for another one far away.
+// A lamp that is hidden in one moment is not taken for another one far away that is like it.
 TEST(LampPaths, ALampDoesNotJumpOverOthers) {
     std::vector<Parts> parts(2);
-    for (const double x : {20.0, 40.0}) add_lamp(parts[0], x, 20);
-    for (const double x : {40.0, 150.0}) add_lamp(parts[1], x, 20);
+    for (Parts &of : parts) add_lamp(of, 40, 20, {90, 80, 70});
+    add_lamp(parts[0], 20, 20);
+    add_lamp(parts[1], 150, 20);
     expect_still(parts);
 }
 
