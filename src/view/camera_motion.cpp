@@ -1,5 +1,7 @@
 #include "view/camera_motion.h"
 
+#include "view/view_mapping.h"
+
 #include <cmath>
 #include <limits>
 
@@ -20,11 +22,8 @@ Imath::V2d CameraMotion::moved(const Imath::V2d &p, double z) const {
 std::optional<CameraMotion::Pinhole> CameraMotion::pinhole_of(const Camera &camera, const Windows &windows) {
     const std::optional<double> focal = focal_length_px(camera, windows.display_width());
     if (!focal) return {};
-    const double width = windows.display_width(), aspect = double(windows.pixel_aspect);
-    const Imath::V2d middle =
-                         Imath::V2d(windows.display.min) + Imath::V2d(width, windows.display_height()) / 2.0,
-                     axis = camera.principal_point.value_or(Imath::V2d(0, 0));
-    return Pinhole{*focal, aspect, middle + Imath::V2d(axis.x, axis.y * aspect) * width};
+    return Pinhole{*focal, double(windows.pixel_aspect),
+                   in_pixels(camera.principal_point.value_or(Imath::V2d(0, 0)), windows)};
 }
 
 std::optional<CameraMotion> camera_motion(const Camera &from, const Camera &to, const Windows &windows) {

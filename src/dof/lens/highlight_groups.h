@@ -14,13 +14,26 @@
 
 namespace sparselens {
 
+// Where highlights are. A highlight is given by its index in `sample`.
+struct PlacedHighlights {
+    const BlockedSamples &samples;
+    std::span<const std::uint32_t> sample; // of each highlight, ascending
+    std::span<const Imath::V2f> moved;     // how far each is from its sample, pixels; empty: none is moved
+
+    bool is_moved(std::uint32_t highlight) const {
+        return !moved.empty() && moved[highlight] != Imath::V2f(0, 0);
+    }
+    Imath::V2f place(std::uint32_t highlight) const { // relative to the data window's corner
+        const Imath::V2f at(samples.x[sample[highlight]], samples.y[sample[highlight]]);
+        return moved.empty() ? at : at + moved[highlight];
+    }
+};
+
 class HighlightGroups {
 public:
     HighlightGroups() = default;
-    // `highlights`: samples, ascending. `moved`: how far each is from its sample; empty: none is moved. Each is in one
-    // group.
-    HighlightGroups(const BlockedSamples &samples, std::span<const std::uint32_t> highlights,
-                    std::span<const Imath::V2f> moved);
+    // Each highlight is in one group.
+    explicit HighlightGroups(const PlacedHighlights &highlights);
 
     // Calls visit(group) for the groups of a block that are not moved. A group lists the indices of its members in
     // `highlights`.

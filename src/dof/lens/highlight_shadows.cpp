@@ -70,9 +70,7 @@ void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint
 }
 
 Imath::V2f HighlightShadows::place(std::uint32_t highlight) const {
-    const std::uint32_t i = highlights_.sample[highlight];
-    const Imath::V2f at(samples_.x[i], samples_.y[i]);
-    return highlights_.moved.empty() ? at : at + highlights_.moved[highlight];
+    return highlights_.among(samples_).place(highlight);
 }
 
 Lamp HighlightShadows::lamp(std::uint32_t highlight) const {
@@ -130,7 +128,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
 
 void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::Box2i &box) {
     shared_.any = false;
-    is_moved_ = !highlights_.moved.empty() && highlights_.moved[group.front()] != Imath::V2f(0, 0);
+    is_moved_ = highlights_.among(samples_).is_moved(group.front());
     group_.reset();
     apart_.clear();
     if (group.size() == 1) return;

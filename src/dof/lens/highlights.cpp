@@ -172,7 +172,7 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
         highlights.sample.push_back(f.sample);
         highlights.share.push_back(f.share);
     }
-    highlights.groups = HighlightGroups(samples, highlights.sample, highlights.moved);
+    highlights.groups = HighlightGroups(highlights.among(samples));
     return highlights;
 }
 
@@ -217,7 +217,7 @@ void spread_along(const LampPaths &paths, const BlockedSamples &samples, const I
         for (std::size_t k = 0; k < spread.light.groups * 4; ++k)
             spread.light.at(k, p) = part * highlights.light.at(k, of);
     }
-    spread.groups = HighlightGroups(samples, spread.sample, spread.moved);
+    spread.groups = HighlightGroups(spread.among(samples));
     highlights = std::move(spread);
 }
 

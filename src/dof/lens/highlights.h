@@ -27,6 +27,8 @@ struct Highlights {
     std::vector<float> share;          // share of its light that each spreads, (0, 1]
     SampleColours light;               // what each spreads; none in A
     HighlightGroups groups;            // of those samples
+
+    PlacedHighlights among(const BlockedSamples &samples) const { return {samples, sample, moved}; }
 };
 
 // Finds the highlights of a picture, and takes the light that they spread out of `colours`. A sample is a highlight if
@@ -46,7 +48,7 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
 std::vector<LampPart> lamp_parts(const Highlights &highlights, const BlockedSamples &samples,
                                  std::span<const std::size_t> brightness, const Imath::V2i &corner);
 
-// Spreads the light of the highlights that move along their paths: each becomes several, whose discs overlap.
+// Spreads the light of highlights that move along their paths: each becomes several highlights, whose discs overlap.
 void spread_along(const LampPaths &paths, const BlockedSamples &samples, const Imath::V2i &corner,
                   Highlights &highlights);
 

@@ -117,7 +117,7 @@ TEST(HighlightShadows, AreTheSameByListsOfTheWholeDisc) {
     for (const double boards : {-40.0, 90.0, 0.9 * lamp_coc}) {
         const Ldi ldi = LampBehindBoards::scene(boards);
         LampBehindBoards scene(ldi);
-        scene.highlights.groups = HighlightGroups(scene.samples, scene.lamp, {});
+        scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
         bool any_hidden = false;
         for (const bool together : {true, false}) {
             const ShadowLists lists(scene.highlights, scene.samples);
@@ -134,7 +134,7 @@ TEST(HighlightShadows, AreTheSameByListsOfTheWholeDisc) {
 TEST(ShadowLists, AreFoundOnceAndKeptWhereTheyAreShort) {
     const Ldi ldi = LampBehindBoards::scene(90);
     LampBehindBoards scene(ldi);
-    scene.highlights.groups = HighlightGroups(scene.samples, scene.lamp, {});
+    scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
     const auto times_found = [&](std::size_t blocks) {
         const ShadowLists lists(scene.highlights, scene.samples);
         int found = 0;
@@ -154,7 +154,7 @@ TEST(ShadowLists, AreFoundOnceAndKeptWhereTheyAreShort) {
 TEST(ShadowLists, AreOfWideDiscsAlone) {
     const Ldi ldi = LampBehindBoards::scene(90);
     LampBehindBoards scene(ldi);
-    scene.highlights.groups = HighlightGroups(scene.samples, scene.lamp, {});
+    scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
     for (float &coc : scene.samples.coc) coc /= 10;
     const ShadowLists lists(scene.highlights, scene.samples);
     EXPECT_EQ(lists.of(0, [] { return std::vector<CastingBlock>(1); }), nullptr);
@@ -177,7 +177,7 @@ TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
     const BlockedSamples &samples = blocked.samples;
     std::vector<std::uint32_t> every(samples.count());
     std::iota(every.begin(), every.end(), 0u);
-    const HighlightGroups groups(samples, every, {});
+    const HighlightGroups groups({samples, every, {}});
     std::size_t several = 0;
     for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
         const SampleBlock &block = samples.blocks[b];
