@@ -118,10 +118,9 @@ private:
         PictureRequest request = request_;
         request.front_depth = false;
         std::vector<std::vector<LampPart>> lamps(moments_.size());
+        const Tell silent = [](const Notice &) {}; // each moment tells when it is taken
         const auto find = [&](std::size_t moment) {
             request.picture.gather.lens.lamps = &lamps[moment];
-            const Tell silent = [](const Notice &) {
-            }; // what there is to tell is told when the moment is taken
             return moments_[moment].take(request, {progress_.unseen(), silent, nullptr, nullptr, looks()});
         };
         focus_as(find(middle), request);

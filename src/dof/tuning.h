@@ -32,7 +32,7 @@ struct GatherTuning {
     static constexpr double lamp_square_to_px = 1;
     // Pixels of CoC. From this CoC on, light comes from the sample's position.
     static constexpr double lamp_point_from_px = 2;
-    // How much farther the light then reaches, at most.
+    // Pixels by which light from the square of a pixel reaches farther, at most.
     static constexpr float lamp_square_reach_px = 2;
     // The discs of a lamp along its path (shutter/lamp_paths.h) are this far apart: pixels, or a share of the CoC if
     // that is more; and how many there are at most.

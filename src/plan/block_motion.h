@@ -1,10 +1,10 @@
 // How the surfaces in one picture have moved in another picture of the same scene: block matching.
 //
 // Both pictures are reduced to at most 480 pixels across. For the surface in the middle of each block of 8 x 8 such
-// pixels, the displacement is found at which the second picture is most like it. Blocks without texture do not count,
-// nor do those that the second picture does not show, or that move unlike those around them. If several displacements are
-// about equally good, as along an edge, where motion does not show, the one that is closest to the expected one counts:
-// motion is never made up.
+// pixels, the displacement is found at which the second picture is most like it. A block does not count if it has no
+// texture, if the second picture does not show it, or if it moves unlike the blocks around it. If several displacements
+// are about equally good, as along an edge, the one closest to the expected displacement counts, so that no motion is
+// made up.
 #pragma once
 
 #include "view/view.h"
@@ -26,8 +26,8 @@ struct BlockMotion {
 // the camera's motion, or 0 if it is unknown.
 using ExpectedMotion = std::function<Imath::V2d(const Imath::V2i &pixel)>;
 
-// The blocks that count, row by row. Of both pictures the pixels that they have in common are compared. Motion beyond a
-// tenth of the width from the expected one is not found.
+// Returns the blocks that count, row by row. Only pixels that both pictures have are compared. Motion that differs from
+// the expected one by more than a tenth of the width is not found.
 std::vector<BlockMotion> block_motions(const View &first, const View &second, const ExpectedMotion &expected);
 
 } // namespace sparselens

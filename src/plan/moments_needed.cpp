@@ -22,7 +22,7 @@ double least_coc(const View &view, const ThinLens &lens, const Imath::Box2i &box
     return least;
 }
 
-// The value that all but a few exceed at most.
+// The value that only a few of them exceed.
 double nearly_largest(std::vector<double> values) {
     const auto few = std::size_t(PlanTuning::few_blocks * double(values.size()));
     const auto at = values.end() - 1 - std::ptrdiff_t(few);

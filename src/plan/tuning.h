@@ -40,9 +40,9 @@ struct PlanTuning {
     // view.
     static constexpr int edge_hereabouts = 12;
 
-    // Pixels across to which pictures are at most reduced to find motion in them.
+    // Largest width, in pixels, of the reduced pictures in which motion is found.
     static constexpr int motion_width = 480;
-    // The longest motion that is found, as one over this part of the width.
+    // The longest motion that is found is the width divided by this.
     static constexpr int motion_reach = 10;
     // Factor between the depths of one surface at two times, or in adjacent pixels.
     static constexpr double depths_of_surface = 1.25;
@@ -68,7 +68,7 @@ struct PlanTuning {
     // ask for 6. At 640x360 (4: 33.3, 8: 38.0, 16: 38.2) they ask for 10 to 13. grass from a camera that moves in by 0.4
     // (4: 41.3, 6: 42.1, 8: 42.6, 16: 42.1): 8.
     static constexpr double step_of_coc = 0.75;
-    // Share of the blocks whose motion counts that may need more moments: some are found in a wrong place.
+    // Share of the blocks that may need more moments, because the motion of some blocks is wrong.
     static constexpr double few_blocks = 0.01;
 
     // Cost of a rectangle besides its pixels, in pixels: two are joined if that wastes less.

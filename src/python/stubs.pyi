@@ -524,8 +524,8 @@ def gather(
       GPU, or Error), or a part of a device's name, which may be a device in software.
     shutter_curve: how the moments of a shutter count: "box", "triangle", "gaussian", or a file whose lines are a time,
       from 0 to 1, and a value.
-    rolling_shutter: the part of the shutter's time for which each row is exposed, the top row first, the bottom row last;
-      0.001 to 1, which exposes all rows for all of the time.
+    rolling_shutter: the part of the shutter's time for which each row is exposed, the top row first, the bottom row
+      last; from 0.001 to 1, which exposes all rows for all of the time.
     overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
     proxy: makes a picture of 1 / proxy the size.
     supersample: this many pixels of the LDI, across and down, become one pixel of the picture (default: as its file

@@ -96,7 +96,7 @@ bool are_alike(const WholeLamp &a, const WholeLamp &b) {
            double(Tuning::same_colour) * std::sqrt(dot(a.light, a.light) * dot(b.light, b.light));
 }
 
-// The nearest of `others` that passes the test, apart from the lamp itself.
+// The nearest of `others` that passes a test. The lamp itself does not count.
 struct Nearest {
     std::size_t lamp = none;
     double distance = infinity;
@@ -112,8 +112,8 @@ Nearest nearest_to(const WholeLamp &lamp, std::span<const WholeLamp> others, con
     return nearest;
 }
 
-// The lamps among `others` that may be each of `lamps`: the nearest one that is like it, unless a lamp of its own moment
-// might have taken its place.
+// For each lamp, the lamp among `others` that may be the same: the nearest one that is like it. None if another lamp of
+// its own moment is nearly as near.
 std::vector<std::size_t> same_among(std::span<const WholeLamp> lamps, std::span<const WholeLamp> others) {
     std::vector<std::size_t> same(lamps.size(), none);
     parallel_for(lamps.size(), [&](std::size_t i) {

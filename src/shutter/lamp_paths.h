@@ -1,8 +1,8 @@
 // How lamps move from moment to moment of a shutter.
 //
-// A lamp that moves fast is a streak, and S moments of it would be S discs. So each moment spreads its lamps along the
-// part of their paths that belongs to it. A lamp is found again in the next moment by its light, colour and depth, if it
-// moves by less than half of the distance to the next lamp like it; other lamps stay discs.
+// A lamp that moves fast is a streak, and S moments of it would be S discs. So each moment spreads its lamps along its
+// part of their paths. A lamp is found again in the next moment by its light, colour and depth, if it moves by less
+// than half of the distance to the next lamp at its depth. Other lamps stay discs.
 //
 // Positions are in pixels of the moments' pictures (EXR coordinates), times in moments.
 #pragma once
@@ -25,8 +25,8 @@ struct LampPathTuning {
     static constexpr float light_change = 1.6f;
     // The cosine between the colours of one lamp in two moments, as vectors of R, G and B.
     static constexpr float same_colour = 0.97f;
-    // A lamp can be followed if the next one like it is this many times as far away as it moves. With less, one may be
-    // taken for the other, as spokes of a wheel in a film.
+    // A lamp can be followed if the next lamp that is about as bright, at its depth, is this many times as far away as
+    // it moves. If that lamp is nearer, one may be taken for the other, as the spokes of a wheel in a film.
     static constexpr float apart = 2;
     // The bend of a path, as a share of the velocity: a turn by 53 degrees from moment to moment.
     static constexpr float most_bend = 0.5f;

@@ -1,8 +1,8 @@
 // The picture of an open shutter: the mean of the pictures of its moments, taken one after the other.
 //
-// Light, coverage and data are averaged by the weights of the moments, which may differ from row to row. Outside of its data window, a moment's picture
-// is empty. The coverage of each id of a Cryptomatte is averaged, and the ids are ranked anew. Other ids have no mean:
-// they are those of the middle moment.
+// Light, coverage and data are averaged by the weights of the moments, which may differ from row to row. Outside of its
+// data window, a moment's picture is empty. The coverage of each id of a Cryptomatte is averaged, and the ids are
+// ranked anew. Other ids have no mean: they are those of the middle moment.
 #pragma once
 
 #include "base/image.h"

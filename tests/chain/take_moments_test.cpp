@@ -145,8 +145,8 @@ TEST(TakeMoments, InFocusAreTheExactMean) {
     }
 }
 
-// A bar in focus that moves a pixel each moment is slanted by a rolling shutter: in each row it stands, in the mean, where
-// it is in the middle of the row's exposure.
+// A rolling shutter slants a bar that moves a pixel each moment. In each row its mean position is that in the middle of
+// the row's exposure.
 TEST(TakeMoments, ARollingShutterSlantsABarThatMoves) {
     constexpr int moments = 8, height = 20;
     std::vector<OpenedLdi> bars;
@@ -173,8 +173,8 @@ TEST(TakeMoments, ARollingShutterSlantsABarThatMoves) {
     }
 }
 
-// A lamp of one pixel, with this CoC, that moves by `step` pixels each moment, before a plane in focus. A dim card beside
-// it, out of focus, keeps the picture from being sharp everywhere.
+// A lamp of one pixel, with this CoC, moves by `step` pixels each moment, before a plane in focus. A dim card beside it
+// is out of focus, so that the picture is not sharp everywhere.
 constexpr float lamp_light = 1000;
 constexpr int lamp_from = 40, lamp_row = 48, lamp_moments = 4;
 

@@ -41,7 +41,8 @@ struct GatherScene {
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, double coc = 0, const Progress &progress = {});
 
-// Adds the highlights of a picture to `lamps`: those that prepare() finds, except that it may sharpen them first.
+// Adds the highlights of a picture to `lamps`. prepare() sharpens the colours first, so it may find slightly different
+// ones.
 void find_lamps(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                 const LensGatherOptions &options, std::vector<LampPart> &lamps);
 
@@ -50,7 +51,7 @@ void find_lamps(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window
 // sharpened. The scene must have no holdout.
 GatherScene coarse_scene(const GatherScene &scene, int across);
 
-// Calls visit(group) for the groups of highlights that are moved (highlight_groups.h) and may reach the tile whose first
+// Calls visit(group) for the groups of moved highlights (highlight_groups.h) whose light may reach a tile. Its first
 // pixel is `origin`, relative to the data window's corner.
 template <typename Visit>
 void for_each_moved(const GatherScene &scene, const Imath::V2i &origin, const Visit &visit) {

@@ -41,7 +41,7 @@ struct LensGatherOptions {
     LensShare share = {}; // of these points, for one moment of a shutter
     // If given, the highlights (highlights.h) are added to it as parts of lamps, and the picture stays black.
     std::vector<LampPart> *lamps = nullptr;
-    const LampPaths *paths = nullptr; // if given: of these lamps, along which they are spread
+    const LampPaths *paths = nullptr; // if given, the paths along which the light of lamps is spread
     // If given, only this point of the lens is used, x right, y up, [-1, 1]. Lamps stay as they are, nothing is
     // sharpened, fillers (areas that no view saw) are tinted magenta, and unknown areas stay black.
     std::optional<Imath::V2d> point = {};
