@@ -233,8 +233,9 @@ TEST(TakeMoments, ABallOfLightThatMovesKeepsItsLight) {
             if (square > 9) return std::vector<Sample>{{lens.focus, {0.01f, 0.01f, 0.01f, 1}}};
             return std::vector<Sample>{{depth_of(lens, -5.5 + 0.05 * square), {lamp_light, 0, 0, 1}}};
         })));
+    const Image picture = taken(moments).image;
     double light = 0;
-    for (const float red : taken(moments).image.plane(0)) light += double(red) - 0.01;
+    for (const float red : picture.plane(0)) light += double(red) - 0.01;
     EXPECT_NEAR(light, 29 * double(lamp_light), 0.005 * 29 * double(lamp_light));
 }
 
