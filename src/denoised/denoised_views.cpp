@@ -90,16 +90,15 @@ std::vector<std::vector<NewPlane>> new_planes(std::span<const PackedView> views,
     std::vector<std::vector<NewPlane>> planes(views.size());
     for (const Layer &layer : denoised_layers(views, denoised)) {
         std::vector<DenoisedLayer> layers;
-        std::vector<Colours> details;
+        std::vector<AveragedLayer> means;
         for (std::size_t v = 0; v < views.size(); ++v) {
             const ViewMapping mapping(views[v].position, focal_px, views[v].samples.windows, views[v].framing,
                                       views[0].framing.principal_point);
             layers.push_back(layer_of(views[v], denoised[v], channels, layer, mapping));
-            details.push_back(details_of(layers[v]));
+            means.push_back(averaged(layers[v]));
         }
         std::vector<Values> kept;
-        for (std::size_t v = 0; v < views.size(); ++v)
-            kept.push_back(kept_details(layers, details, v, scale));
+        for (std::size_t v = 0; v < views.size(); ++v) kept.push_back(kept_details(layers, means, v, scale));
         for (std::size_t v = 0; v < views.size(); ++v) {
             blend(layers[v], kept[v]);
             for (std::size_t k = 0; k < layer.size(); ++k)

@@ -19,6 +19,7 @@ using Tuning = DenoisedTuning;
 struct Evidence {
     float shared = 0;     // mean product with other views
     float difference = 0; // half of the mean squared difference
+    float of_noisy = 0;   // the same of the noisy views
     float own = 0;        // its own square
     float stands_out = 0; // square of the mean over all views
     float views = 0;      // other views that show the pixel
@@ -66,9 +67,9 @@ bool shows(const DenoisedLayer &view, const Between &at, double inverse_z, doubl
 
 class Comparison {
 public:
-    Comparison(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
+    Comparison(std::span<const DenoisedLayer> views, std::span<const AveragedLayer> means, std::size_t at,
                double scale)
-        : views_(views), details_(details), at_(at), scale_(scale) {}
+        : views_(views), means_(means), at_(at), scale_(scale) {}
 
     Evidence of_pixel(std::size_t i) const {
         const DenoisedLayer &view = views_[at_];
@@ -78,7 +79,7 @@ public:
         const Imath::V2d place = view.mapping.at_infinity(centre) + view.mapping.parallax(centre) * inverse_z;
         Evidence found;
         std::array<float, 3> sum{};
-        const std::size_t channels = details_[at_].size();
+        const std::size_t channels = means_[at_].noisy.size();
         for (std::size_t c = 0; c < channels; ++c) sum[c] = own(c, i);
         for (std::size_t k = 0; k < views_.size(); ++k) {
             Between at{};
@@ -87,10 +88,13 @@ public:
             if (!shows(views_[k], at, inverse_z, scale_)) continue;
             ++found.views;
             for (std::size_t c = 0; c < channels; ++c) {
-                const float other = at.of(details_[k][c]), mine = own(c, i);
+                const float noisy = at.of(means_[k].noisy[c]);
+                const float mine = own(c, i), other = noisy - at.of(means_[k].denoised[c]);
                 sum[c] += other;
-                found.shared += mine * other;
+                const float beyond = noisy - means_[at_].denoised[c][i]; // what this view should have
+                found.shared += mine * beyond;
                 found.difference += (mine - other) * (mine - other) / 2;
+                found.of_noisy += (mine - beyond) * (mine - beyond) / 2;
             }
         }
         for (std::size_t c = 0; c < channels; ++c) {
@@ -100,15 +104,18 @@ public:
         if (found.views > 0) {
             found.shared /= found.views;
             found.difference /= found.views;
+            found.of_noisy /= found.views;
         }
         return found;
     }
 
 private:
-    float own(std::size_t channel, std::size_t i) const { return details_[at_][channel][i]; }
+    float own(std::size_t channel, std::size_t i) const {
+        return means_[at_].noisy[channel][i] - means_[at_].denoised[channel][i];
+    }
 
     std::span<const DenoisedLayer> views_;
-    std::span<const Colours> details_;
+    std::span<const AveragedLayer> means_;
     std::size_t at_;
     double scale_;
 };
@@ -116,13 +123,14 @@ private:
 // The planes that are averaged over windows. Where no other view shows a pixel, its part of the means over views is 0.
 struct Planes {
     explicit Planes(std::size_t pixels)
-        : shared(pixels), difference(pixels), log_difference(pixels), log_own(pixels), compared(pixels),
-          stands_out(pixels), own_difference(pixels), views(pixels) {}
+        : shared(pixels), difference(pixels), of_noisy(pixels), log_difference(pixels), log_own(pixels),
+          compared(pixels), stands_out(pixels), own_difference(pixels), views(pixels) {}
 
     void set(std::size_t i, const Evidence &found, float weight) {
         const float least = Tuning::rounding * weight * found.own + 1e-20f;
         shared[i] = weight * found.shared;
         difference[i] = weight * found.difference;
+        of_noisy[i] = weight * found.of_noisy;
         compared[i] = found.views > 0;
         log_difference[i] = found.views > 0 ? std::log(weight * found.difference + least) : 0;
         log_own[i] = std::log(weight * found.own + least);
@@ -133,7 +141,7 @@ struct Planes {
 
     // Averages over windows all planes except those that judge a single pixel.
     void average(const Grid &grid) {
-        for (Values *values : {&shared, &difference, &log_difference, &log_own, &compared})
+        for (Values *values : {&shared, &difference, &of_noisy, &log_difference, &log_own, &compared})
             soft_mean(*values, grid, Tuning::window_radius);
     }
 
@@ -141,7 +149,7 @@ struct Planes {
 
 private:
     float kept_in_window(std::size_t i) const {
-        const float detail = std::max(shared[i], 0.0f), all = detail + difference[i];
+        const float detail = std::max(shared[i], 0.0f), all = detail + std::min(difference[i], of_noisy[i]);
         return all > 0 ? detail / all : 0;
     }
     float kept_pixel(std::size_t i) const {
@@ -158,28 +166,25 @@ private:
         return stands_out[i] > limit ? 1 - limit / stands_out[i] : 0;
     }
 
-    Values shared, difference, log_difference, log_own,
+    Values shared, difference, of_noisy, log_difference, log_own,
         compared; // the last one is 1 if another view shows the pixel, otherwise 0
     Values stands_out, own_difference, views;
 };
 
 } // namespace
 
-Colours details_of(const DenoisedLayer &view) {
-    Colours details(view.noisy.size());
-    parallel_for(details.size(), [&](std::size_t c) {
-        details[c].resize(view.grid.size());
-        for (std::size_t i = 0; i < details[c].size(); ++i)
-            details[c][i] = view.noisy[c][i] - view.denoised[c][i];
-        box_mean(details[c], view.grid, Tuning::detail_radius);
-    });
-    return details;
+AveragedLayer averaged(const DenoisedLayer &view) {
+    AveragedLayer means{view.noisy, view.denoised};
+    for (Colours *colours : {&means.noisy, &means.denoised})
+        parallel_for(colours->size(),
+                     [&](std::size_t c) { box_mean((*colours)[c], view.grid, Tuning::detail_radius); });
+    return means;
 }
 
-Values kept_details(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
-                    double scale) {
+Values kept_details(std::span<const DenoisedLayer> views, std::span<const AveragedLayer> means,
+                    std::size_t at, double scale) {
     const DenoisedLayer &view = views[at];
-    const Comparison comparison(views, details, at, scale);
+    const Comparison comparison(views, means, at, scale);
     Planes planes(view.grid.size());
     const auto width = std::size_t(view.grid.width());
     parallel_for(std::size_t(view.grid.height()), [&](std::size_t row) {

@@ -2,11 +2,12 @@
 //
 // The noise of one view is independent of the noise of another. A detail is on a surface, so all views that see the
 // surface show it. Let R be the noisy view minus the denoised one, averaged over 3 x 3 pixels. Over a window, the mean
-// product of R in two views is the square of the common part, b^2; half of the mean squared difference is the square of
-// the noise, s^2. The best share of R to keep is b^2 / (b^2 + s^2) (N. Wiener, 1949). A small lamp is one pixel of a
-// window: it is kept as far as the mean of R over the views stands out from the noise around (W. James, C. Stein,
-// 1961). That noise is measured by geometric means, because lamps of other surfaces are outliers among the differences.
-// Views must agree on the lamp; on a firefly they do not.
+// product of R with another noisy view minus the same denoised one is b^2, the square of what the denoiser took too much
+// or too little: also where it errs differently in each view, as on lamps. Half of the mean squared difference of R in
+// two views is s^2, the square of the noise. The best share of R to keep is b^2 / (b^2 + s^2) (N. Wiener, 1949). A small
+// lamp is one pixel of a window: it is kept as far as the mean of R over the views stands out from the noise around
+// (W. James, C. Stein, 1961). That noise is measured by geometric means, because lamps of other surfaces are outliers
+// among the differences. Views must agree on the lamp; on a firefly they do not.
 #pragma once
 
 #include "base/grid.h"
@@ -26,13 +27,18 @@ struct DenoisedLayer {
     Colours noisy, denoised;  // the same channels
 };
 
-// The part of the noisy view that the denoised one lacks, averaged over small squares, by channel.
-Colours details_of(const DenoisedLayer &view);
+// Both versions of a view, averaged over small squares: details smaller than a pixel lie in different pixels of
+// different views.
+struct AveragedLayer {
+    Colours noisy, denoised;
+};
 
-// For each pixel of views[at], the share of the removed details that is kept: 0 to 1. `details` are those of all views.
+AveragedLayer averaged(const DenoisedLayer &view);
+
+// For each pixel of views[at], the share of the removed details that is kept: 0 to 1. `means` are those of all views.
 // `scale`: perceptive depth times z, pixels times scene units. Views show the same surface if their perceptive depths
 // differ by less than one_surface_px.
-Values kept_details(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
-                    double scale);
+Values kept_details(std::span<const DenoisedLayer> views, std::span<const AveragedLayer> means,
+                    std::size_t at, double scale);
 
 } // namespace sparselens

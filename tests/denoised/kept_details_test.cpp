@@ -25,9 +25,9 @@ public:
 
     // The denoised picture with the details kept from the noisy one.
     Colours taken(std::size_t at) const {
-        std::vector<Colours> details;
-        for (const DenoisedLayer &view : views) details.push_back(details_of(view));
-        const Values kept = kept_details(views, details, at, focal_px * radius);
+        std::vector<AveragedLayer> means;
+        for (const DenoisedLayer &view : views) means.push_back(averaged(view));
+        const Values kept = kept_details(views, means, at, focal_px * radius);
         Colours result = views[at].denoised;
         for (std::size_t c = 0; c < result.size(); ++c)
             for (std::size_t i = 0; i < grid.size(); ++i)
@@ -98,6 +98,20 @@ TEST(KeptDetails, ALampOfLessThanAPixelStays) {
         EXPECT_NEAR(kept, all.views[0].noisy[1][grid.index(30, 20)], parallax == 3.0f ? 1.0f : 15.0f)
             << parallax;
     }
+}
+
+// Denoisers take lamps of a few pixels for more or for less light, as chance will have it.
+TEST(KeptDetails, ALampThatEachDenoisedViewShowsDifferentlyStays) {
+    Views all(far_away);
+    const float factors[] = {1.5f, 1.1f, 0.8f, 1.3f, 1.2f};
+    for (std::uint32_t v = 0; v < 5; ++v) {
+        all.views[v].noisy = rays_of(constant(0.5f), 4, v + 1), all.views[v].denoised = constant(0.5f);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (const std::size_t i :
+                 {grid.index(30, 20), grid.index(31, 20), grid.index(30, 21), grid.index(31, 21)})
+                all.views[v].noisy[c][i] = 100, all.views[v].denoised[c][i] = factors[v] * 100;
+    }
+    EXPECT_NEAR(all.taken(0)[0][grid.index(30, 20)], 100, 10); // the denoised view has 150
 }
 
 TEST(KeptDetails, AFireflyOfOneViewGoes) {
