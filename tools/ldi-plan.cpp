@@ -57,6 +57,9 @@ void say(const RayDivision &division, std::FILE *out) {
     if (division.per_render > 0)
         fmt::print(out, "... and {} for each of two renders through the lens, for dof-finish\n",
                    division.per_render);
+    if (division.noise > 0)
+        fmt::print(out, "one render of all of them through the lens: about {:.0f} dB{}\n",
+                   -10 * std::log10(division.noise), division.alone ? ", better than with views" : "");
 }
 
 void say(const std::optional<MomentsNeed> &need, std::FILE *out) {

@@ -4,7 +4,7 @@ KIND.
 KIND says what albedo and normals are: clean (without noise), noisy (from the same rays), pinhole (from other rays: the
 result is named PICTURE.pinhole.exr and is not a row), frame (from the same rays: NAME.pull.0001.exr becomes
 NAME.denoised.pull.0001.exr). Without them, both are -. The seconds of the second of two runs are added to those of the
-picture in the camera.json beside it.
+picture in the cost.json or camera.json beside it.
 """
 import json
 import pathlib
@@ -22,7 +22,8 @@ def rgb(path):
 
 
 def note(folder, name, of, seconds):
-    path = folder / "camera.json"
+    path = folder / "cost.json"  # of renders alone, which are no budget of their own
+    path = path if path.exists() else folder / "camera.json"
     camera = json.loads(path.read_text())
     camera["seconds"][name] = round(camera["seconds"][of] + seconds, 3)
     path.write_text(json.dumps(camera, indent=1) + "\n")

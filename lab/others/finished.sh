@@ -1,9 +1,10 @@
 #!/bin/bash
 # Makes pictures with dof-finish from five views and rays over the lens, in the folder that lab/denoise filled:
-# finished_N.exr and, with each render denoised, finished_N.denoised.exr, with N rays in total. For a scene of dof-trace the
-# rays are divided as by ldi-plan --rays for five views, and half_N.exr has half of them in the views; views are twice as
-# fine if they have four rays per pixel; a focus pull is finished as in more.sh, with the views of one frame and rays for
-# each frame. For ready-made pictures (SCENE is -) all views are finished with drt_64.exr and drt_16.exr.
+# finished_N.exr and, with each view and render denoised, finished_N.denoised.exr, with N rays in total. For a scene of
+# dof-trace the rays are divided as by ldi-plan --rays for five views, and half_N.exr has half of them in the views; views
+# are twice as fine if they have four rays per pixel; a focus pull is finished as in more.sh, with the views of one frame
+# and rays for each frame; advice.json says what ldi-plan advises. For ready-made pictures (SCENE is -) all views are
+# finished with drt_64.exr and drt_16.exr, or the views of four samples with each folder halves-N of two renders.
 #
 #   finished.sh BIN_DIR SCENE [WIDTHxHEIGHT LIGHT PYTHON]
 #
@@ -39,26 +40,56 @@ camera["others"] = [o for o in camera.get("others", []) if o["file"] != file] + 
 json.dump(camera, open("camera.json", "w"), indent=1)
 END
 }
-gather() { # VIEWS...: writes gathered.exr at the size of the rays
+gather() { # WORD_OF_LDI_WARP...: writes gathered.exr at the size of the rays
     ldi-warp "$@" -o views.ldi.exr && dof-gather views.ldi.exr "${fine[@]}" -o gathered.exr
 }
+# finish NAME RAYS WAY VIEWS_SECONDS RENDER_1 RENDER_2 SAMPLES RENDERS_SECONDS [OPTION...]: from gathered.exr
+finish() {
+    local gathered=$took
+    timed dof-finish gathered.exr "$5" "$6" --samples "$7" "${@:9}" -o "$1.exr"
+    row "$1.exr" "$2" "$3" "$4" "$gathered" "$took" "$8"
+}
 
+# advise OPTION...: writes into advice.json what ldi-plan advises: views, rays, or both.
+advise() {
+    for rays in 5 16 20 64 80 100 256 320 400 1280; do
+        ldi-plan center.exr "$@" -o - --rays $rays 2>/dev/null | python3 -c 'import json, sys
+rays = json.load(sys.stdin)["rays"]
+print(sys.argv[1], "rays" if rays["alone"] else "both" if rays["per_render"] else "views")' $rays
+    done | python3 -c 'import json, sys; print(json.dumps(dict(line.split() for line in sys.stdin)))' >advice.json
+}
+# ready AT COST SAMPLES_1 SAMPLES_2 RENDER_1 RENDER_2: finishes the views in the folder AT with two ready-made renders,
+# whose seconds are in the file COST
+ready() {
+    local at=$1 cost=$2 first=$5 second=$6 words denoised options rays word names=()
+    rays=$(python3 -c 'import json, sys; print(sum(map(int, sys.argv[2:])) + 5 * json.load(open(sys.argv[1]))["view_spp"])' "$at/camera.json" "$3" "$4")
+    mapfile -t words < <(views "$at" exr | tr ' ' '\n')
+    mapfile -t denoised < <(views "$at" denoised.exr | tr ' ' '\n' | grep '[.]exr$')
+    for word in "${words[@]}"; do [[ $word != *.exr ]] || names+=("$(basename "$word" .exr)"); done
+    timed gather "${words[@]}"
+    finish finished_$rays $rays finished "$(seconds "$at/camera.json" "${names[@]/%/.exr}")" "$first.exr" "$second.exr" $3,$4 \
+        "$(seconds "$cost" "$(basename "$first").exr" "$(basename "$second").exr")"
+    timed gather "${words[@]}" --denoised "${denoised[@]}"
+    options=(--denoised "$first.denoised.exr,$second.denoised.exr")
+    finish finished_$rays.denoised $rays 'finished, denoised' "$(seconds "$at/camera.json" "${names[@]/%/.denoised}")" "$first.exr" "$second.exr" $3,$4 \
+        "$(seconds "$cost" "$(basename "$first").denoised" "$(basename "$second").denoised")" "${options[@]}"
+}
 if [ "$scene" = - ]; then
     fine=()
-    [ -e drt_64.exr ] && [ -e drt_16.exr ] || { echo "there are no drt_64.exr and drt_16.exr" >&2; exit 1; }
-    for at in . */; do
-        [ -e "$at/camera.json" ] && [ -e "$at/center.denoised.exr" ] || continue
-        rays=$(python3 -c 'import json, sys; print(80 + 5 * json.load(open(sys.argv[1]))["view_spp"])' "$at/camera.json")
-        mapfile -t words < <(views "$at" exr | tr ' ' '\n')
-        shown=()
-        for word in "${words[@]}"; do [[ $word != *view_*.exr ]] || shown+=("$(basename "$word")"); done
-        timed gather "${words[@]}"
-        cost=("$took" "$(seconds "$at/camera.json" center.exr "${shown[@]}")")
-        timed dof-finish gathered.exr drt_64.exr drt_16.exr --samples 64,16 -o finished_$rays.exr
-        row finished_$rays.exr $rays finished "${cost[@]}" "$took" "$(seconds camera.json drt_64.exr drt_16.exr)"
-        timed dof-finish gathered.exr drt_64.exr drt_16.exr --samples 64,16 --denoised drt_64.denoised.exr,drt_16.denoised.exr -o finished_$rays.denoised.exr
-        row finished_$rays.denoised.exr $rays 'finished, denoised' "${cost[@]}" "$took" "$(seconds camera.json drt_64.denoised drt_16.denoised)"
+    shopt -s nullglob
+    pairs=(halves-*/)
+    for pair in "${pairs[@]}"; do
+        half=$((${pair//[!0-9]/} / 2))
+        ready 4 $pair/cost.json $half $half $pair/rays_1 $pair/rays_2
     done
+    if [ ${#pairs[@]} -eq 0 ]; then
+        [ -e drt_64.exr ] && [ -e drt_16.exr ] || { echo "there are no drt_64.exr and drt_16.exr" >&2; exit 1; }
+        for at in . */; do
+            [ ! -e "$at/camera.json" ] || [ ! -e "$at/center.denoised.exr" ] || ready "$at" camera.json 64 16 drt_64 drt_16
+        done
+    fi
+    mapfile -t words < <(views . exr | tr ' ' '\n')
+    advise "${words[@]:0:8}"
     rm -f views.ldi.exr gathered.exr
     exit
 fi
@@ -77,21 +108,24 @@ for words in "${divisions[@]}"; do
     [ $name = finished ] || continue # half of the rays in the views: for comparison, not denoised
     for guide in albedo normal; do trace --light $guide --views 0 --spp 1 --halves $lens -o $name-$rays/$guide; done
     for k in 1 2; do echo "$name-$rays/rays_$k.exr $name-$rays/albedo/rays_$k.exr $name-$rays/normal/rays_$k.exr noisy" >>jobs; done
+    [ $samples -lt 4 ] && guides= || guides=fine-
+    for view in center view_{0..3}; do echo "$name-$rays/$view.exr ${guides}albedo/$view.exr ${guides}normal/$view.exr clean" >>jobs; done
 done
 "$python/bin/python" "$others/denoise.py"
 for words in "${divisions[@]}"; do
     divided $words
-    at=$name-$rays of=$name-$rays/camera.json
+    at=$name-$rays of=$name-$rays/cost.json
+    renders="$at/rays_1.exr $at/rays_2.exr $((lens / 2)),$((lens / 2))"
     timed gather $at/center.exr $at/view_[0-3].exr
-    cost=("$took" "$(seconds $of center.exr view_)")
-    timed dof-finish gathered.exr $at/rays_{1,2}.exr -o ${name}_$rays.exr
-    row ${name}_$rays.exr $rays $name "${cost[@]}" "$took" "$(seconds $of rays_1.exr rays_2.exr)"
-    mv $of $at/cost.json # its views are no budget of their own
+    mv $at/camera.json $of # its views are no budget of their own
+    finish ${name}_$rays $rays $name "$(seconds $of center.exr view_0.exr view_1.exr view_2.exr view_3.exr)" $renders "$(seconds $of rays_1.exr rays_2.exr)"
     [ $name = finished ] || continue
-    timed dof-finish gathered.exr $at/rays_{1,2}.exr --denoised $at/rays_1.denoised.exr,$at/rays_2.denoised.exr -o ${name}_$rays.denoised.exr
-    row ${name}_$rays.denoised.exr $rays "finished, denoised" "${cost[@]}" "$took" "$(seconds $at/cost.json rays_1.denoised rays_2.denoised)"
     [ $at != finished-80 ] || mv views.ldi.exr finished_80.ldi.exr
+    timed gather $at/center.exr $at/view_[0-3].exr --denoised $at/center.denoised.exr $at/view_[0-3].denoised.exr
+    finish ${name}_$rays.denoised $rays "finished, denoised" "$(seconds $of center.denoised view_{0..3}.denoised)" $renders \
+        "$(seconds $of rays_1.denoised rays_2.denoised)" --denoised $at/rays_1.denoised.exr,$at/rays_2.denoised.exr
 done
+advise
 
 focus=$(python3 -c 'import json; print(json.load(open("camera.json"))["focus_distance"])')
 for frame in {01..16}; do

@@ -176,4 +176,11 @@ for samples, folder in (16, "."), (1, "1"), (4, "4"), (64, "64"):
             jobs.append(f"{file} albedo/center.exr normal/center.exr pinhole")
         seconds["reference.exr"] = picture(".", "reference.exr", reference_rays, 1, lens=True)
     note(folder, samples, seconds)
+for rays in 60, 300:  # as two renders, to finish the views of 4 samples
+    folder, seconds = f"halves-{rays}", {}
+    for file in "rays_1.exr", "rays_2.exr":
+        seed += 1
+        seconds[file] = picture(folder, file, rays // 2, seed, lens=True, guides=folder + "/{}")
+        jobs.append(f"{folder}/{file} {folder}/albedo/{file} {folder}/normal/{file} noisy")
+    pathlib.Path(folder, "cost.json").write_text(json.dumps({"seconds": seconds}))
 pathlib.Path("jobs").write_text("\n".join(jobs) + "\n")

@@ -1,6 +1,8 @@
 """Prints the rows of report.csv at equal rays as Markdown: python table.py report.csv. Each cell: dB, worst blocks
 (dB), FLIP, seconds."""
 import csv
+import json
+import os
 import sys
 
 rows = list(csv.DictReader(open(sys.argv[1])))
@@ -18,8 +20,13 @@ def figures(row):
             f"{float(row['seconds']):.2f} s")
 
 
-print("| scene, rays | " + " | ".join(way[0] for way in ways) + " |")
-print("|---" * (1 + len(ways)) + "|")
+def advice(scene):
+    path = os.path.join(os.path.dirname(sys.argv[1]), os.pardir, scene, "advice.json")
+    return json.load(open(path)) if os.path.exists(path) else {}
+
+
+print("| scene, rays | " + " | ".join(way[0] for way in ways) + " | `ldi-plan` advises |")
+print("|---" * (2 + len(ways)) + "|")
 for scene in scenes:
     of_scene = [row for row in rows if row["scene"] == scene]
     numbers = sorted({float(row["rays"]) for row in of_scene for _, renderer, processor in ways
@@ -30,7 +37,7 @@ for scene in scenes:
             found = [row for row in of_scene
                      if (row["renderer"], row["processor"], float(row["rays"])) == (renderer, processor, rays)]
             cells.append(figures(found[0]) if found else "")
-        print(f"| {scene}, {rays:g} | " + " | ".join(cells) + " |")
+        print(f"| {scene}, {rays:g} | " + " | ".join(cells) + f" | {advice(scene).get(f'{rays:g}', '')} |")
 
 print("\n| scene | of one view | rays | |\n|---|---|---|---|")
 for scene in scenes:

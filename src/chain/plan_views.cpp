@@ -3,10 +3,29 @@
 #include "chain/file_notices.h"
 #include "deep/checks/view_warnings.h"
 #include "finish/divide_rays.h"
+#include "io/render_samples.h"
+#include "plan/noise.h"
+#include "plan/noise_of_rays.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sparselens {
+
+namespace {
+
+// Of one render of all rays through the lens: from what the lens mixes, and from the light, whose noise the centre view
+// shows. `lens` and `across` are those of the plan.
+double noise_of_all(const OpenedView &centre, ThinLens lens, const PlanOptions &options, int rays) {
+    const auto &[image, z] = std::tie(centre.view.image, centre.view.z);
+    const double mixed = noise_of_rays(image, z, lens, options.across, rays);
+    lens.radius = 0; // the noise of each pixel by itself
+    const std::vector<double> light = noise_in_lens_picture(image, z, lens, options.noise);
+    const double samples = render_samples(centre.header).value_or(1);
+    return mixed + std::accumulate(light.begin(), light.end(), 0.0) / double(light.size()) * samples / rays;
+}
+
+} // namespace
 
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, std::optional<int> rays, Progress &progress,
@@ -23,7 +42,8 @@ PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const Len
     planned.plan = make_plan(centre.view, planned.setting.lens, options, progress);
     if (rays)
         planned.setting.division = divide_rays(*rays, int(planned.plan.views.size()) + 1,
-                                               std::max(options.across, planned.plan.supersample));
+                                               std::max(options.across, planned.plan.supersample),
+                                               noise_of_all(centre, planned.setting.lens, options, *rays));
     return planned;
 }
 

@@ -133,7 +133,9 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
         json["rays"] = {{"views", rays->views},
                         {"supersample", rays->supersample},
                         {"samples", rays->samples},
-                        {"per_render", rays->per_render}};
+                        {"per_render", rays->per_render},
+                        {"noise_db", json_of(-10 * std::log10(rays->noise))},
+                        {"alone", rays->alone}};
     if (const auto &need = setting.moments) {
         json["moments"] = need->moments;
         json["motion"] = need->motion;

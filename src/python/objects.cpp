@@ -272,7 +272,9 @@ void bind_plan(py::module_ &module) {
                 const auto &rays = o.setting.division;
                 if (!rays) return py::none();
                 return py::dict(py::arg("views") = rays->views, py::arg("supersample") = rays->supersample,
-                                py::arg("samples") = rays->samples, py::arg("per_render") = rays->per_render);
+                                py::arg("samples") = rays->samples, py::arg("per_render") = rays->per_render,
+                                py::arg("noise_db") = -10 * std::log10(rays->noise),
+                                py::arg("alone") = rays->alone);
             },
             doc::Plan::rays)
         .def_property_readonly(

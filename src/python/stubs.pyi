@@ -292,9 +292,10 @@ class Plan:
     def supersample(self) -> int:
         """How many times larger to render the views with as many rays: 2 if depth has many edges, else 1."""
     @property
-    def rays(self) -> Optional[dict[str, int]]:
+    def rays(self) -> Optional[dict[str, float]]:
         """How plan() divided its rays: views, how many; supersample, times the size at which to render them; samples, of
-        each of their pixels; per_render, rays of each of two renders through the lens, 0 if views take all."""
+        each of their pixels; per_render, rays of each of two renders through the lens, 0 if views take all; noise_db,
+        the noise of all rays in one render through the lens; alone, whether that is better, and needs no views."""
     @property
     def moments(self) -> Optional[int]:
         """How many moments of a shutter the picture needs; None if plan() got one view, or nothing has texture."""

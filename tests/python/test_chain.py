@@ -299,6 +299,8 @@ def test_plan(views, names, tool, tmp_path):
     plan = sparselens.plan(views[0], views=3, margin=1, rays=320)
     assert plan.rays["views"] == len(plan.views) + 1
     assert plan.rays["views"] * plan.rays["samples"] * plan.rays["supersample"] ** 2 + 2 * plan.rays["per_render"] == 320
+    told = json.loads((tmp_path / "tool.json").read_text())["rays"]
+    assert plan.rays == {**told, "noise_db": pytest.approx(told["noise_db"])} and plan.rays["noise_db"] > 20
     assert sparselens.plan(views[0]).rays is None
     with pytest.raises(sparselens.UsageError, match="too few"):
         sparselens.plan(views[0], views=3, rays=1)

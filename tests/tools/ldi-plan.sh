@@ -23,9 +23,13 @@ grep -q 'render views 2 times as large with 1/4 of the samples' stdout || fail "
 [ "$(json plan.json '"rays" in p')" = False ] || fail "rays that nobody gave"
 "$bin/dof-trace" fence --size 120x68 --views 0 --supersample 2 -o fine
 exits 0 "$plan" full/center.exr --rays 320 -o rays.json
-[ "$(json rays.json 'p["rays"] == {"views": 1 + len(p["views"]), "supersample": 2, "samples": 2,
-    "per_render": 156 - 4 * len(p["views"])}')" = True ] || fail "rays: $(json rays.json 'p["rays"]')"
+[ "$(json rays.json '{**p["rays"], "noise_db": round(p["rays"]["noise_db"])} == {"views": 1 + len(p["views"]), "supersample": 2,
+    "samples": 2, "per_render": 156 - 4 * len(p["views"]), "noise_db": 46, "alone": False}')" = True ] || fail "rays: $(json rays.json 'p["rays"]')"
 grep -q ' for [345] views 2 times as large' stdout && grep -q 'for each of two renders' stdout || fail "rays: $(cat stdout)"
+grep -q 'one render of all of them through the lens: about 46 dB$' stdout || fail "noise of rays: $(cat stdout)"
+# dof-trace's 320 rays have 45.8 dB.
+exits 0 "$plan" full/center.exr --rays 20000 -o many.json
+[ "$(json many.json 'p["rays"]["alone"]')" = True ] && grep -q 'through the lens: about 6[0-9] dB, better than with views' stdout || fail "many rays: $(cat stdout)"
 exits 0 "$plan" full/center.exr --rays 10 -o rays.json
 [ "$(json rays.json 'p["rays"]["supersample"], p["rays"]["per_render"]')" = "1 0" ] || fail "ten rays: $(json rays.json 'p["rays"]')"
 fails_saying 2 'rays: 1 for each pixel are too few for [345] views' "$plan" full/center.exr --rays 1 -o x.json
