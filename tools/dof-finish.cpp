@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <utility>
 
 using namespace sparselens;
 
@@ -54,6 +56,41 @@ TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<doub
         halves.add({paths[k], std::move(file.image), samples[k]});
     }
     return halves;
+}
+
+// The gathered pictures and renders of the frames before and after, as far as they exist.
+std::vector<std::vector<std::string>> names_around(const FinishCommand &options, const ToolContext &tool) {
+    std::vector<std::vector<std::string>> frames;
+    for (int by = -options.neighbours; by <= options.neighbours; ++by) {
+        if (by == 0) continue;
+        std::vector<std::string> names{options.gathered};
+        names.insert(names.end(), options.renders.begin(), options.renders.end());
+        for (std::string &name : names) {
+            const std::string here = std::exchange(name, tool.other_frame(name, by));
+            if (name == here)
+                throw UsageError(
+                    fmt::format("--neighbours: {} is the same for all frames: give a sequence, such as "
+                                "name.####.exr, and --frames",
+                                here));
+        }
+        if (std::ranges::all_of(names, [](const std::string &name) { return std::filesystem::exists(name); }))
+            frames.push_back(std::move(names));
+    }
+    return frames;
+}
+
+std::vector<FrameAround> read_around(const FinishCommand &options, const std::vector<double> &samples,
+                                     const FlatFile &gathered, const ToolContext &tool) {
+    std::vector<FrameAround> around;
+    for (std::vector<std::string> &names : names_around(options, tool)) {
+        FlatFile file = read(names[0], tool);
+        if (file.image.windows.display != gathered.image.windows.display)
+            throw Error(names[0] + ": its size differs from that of " + options.gathered);
+        names.erase(names.begin());
+        around.push_back({std::move(file.image), added_up(names, samples, gathered, tool)});
+    }
+    tool.say(fmt::format("frames around: {}", around.size()));
+    return around;
 }
 
 // The same value in R, G and B, so that every program shows it as grey.
@@ -110,6 +147,7 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     if (!options.denoised.empty())
         picture.denoised.push_back(added_up(options.denoised, samples, file, tool));
     for (const std::string &path : options.others) picture.others.push_back(read(path, tool).image);
+    if (options.neighbours > 0) picture.around = read_around(options, samples, file, tool);
     picture.gathered = std::move(file.image);
     const auto halves = picture.rays.samples();
     if (picture.rays.missing() > 0)
@@ -136,6 +174,13 @@ int main(int argc, char **argv) {
                       argc, argv, [](CLI::App &app) {
                           const auto options = std::make_shared<FinishCommand>();
                           add_finish_options(app, *options);
-                          return Job{[options](const ToolContext &tool) { run(*options, tool); }};
+                          Job job{[options](const ToolContext &tool) { run(*options, tool); }};
+                          job.also_reads = [options](const ToolContext &tool) {
+                              std::vector<std::string> names;
+                              for (const auto &frame : names_around(*options, tool))
+                                  names.insert(names.end(), frame.begin(), frame.end());
+                              return names;
+                          };
+                          return job;
                       });
 }

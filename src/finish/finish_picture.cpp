@@ -3,6 +3,7 @@
 #include "base/colour_layers.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "finish/frames_around.h"
 
 #include <fmt/format.h>
 
@@ -89,6 +90,37 @@ Halves taken(TwoHalves &from, const std::vector<std::size_t> &channels) {
     return halves;
 }
 
+// The same channels of another gathered picture, over the pixels of the one to finish; empty if it lacks one of them.
+Colours of_other(const PictureToFinish &picture, const Image &other,
+                 const std::vector<std::size_t> &channels) {
+    Colours colours;
+    for (const std::size_t c : channels) {
+        const std::size_t from = find_channel(other.channels, picture.gathered.channels[c].name);
+        if (from == npos) return {};
+        colours.push_back(over(other, from, picture.gathered.windows));
+    }
+    return colours;
+}
+
+// Averages the layer's rays with those of the frames around.
+void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vector<std::size_t> &channels) {
+    std::vector<FrameOfLayer> around;
+    for (FrameAround &near : picture.around) {
+        FrameOfLayer other{of_other(picture, near.gathered, channels), {}};
+        if (other.gathered.empty() ||
+            !std::ranges::all_of(channels, [&](std::size_t c) { return near.rays.has(c); }))
+            continue;
+        other.rays = taken(near.rays, channels);
+        settle(other.gathered, {&other.rays});
+        around.push_back(std::move(other));
+    }
+    if (around.empty()) return;
+    FrameOfLayer frame{std::move(layer.gathered), std::move(layer.rays)};
+    average_residuals(frame, around, layer.grid);
+    layer.gathered = std::move(frame.gathered);
+    layer.rays = std::move(frame.rays);
+}
+
 LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> &channels) {
     const Windows &windows = picture.gathered.windows;
     LayerToFinish layer{Grid(windows.width(), windows.height()),
@@ -104,19 +136,13 @@ LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> 
     for (TwoHalves &denoised : picture.denoised)
         if (has_all([&](std::size_t c) { return denoised.has(c); }))
             layer.given.push_back(taken(denoised, channels));
-    for (const Image &other : picture.others) {
-        const auto index = [&](std::size_t c) {
-            return find_channel(other.channels, picture.gathered.channels[c].name);
-        };
-        if (!has_all([&](std::size_t c) { return index(c) != npos; })) continue;
-        Halves twice;
-        for (const std::size_t c : channels)
-            for (Colours &half : twice) half.push_back(over(other, index(c), windows));
-        layer.given.push_back(std::move(twice));
-    }
+    for (const Image &other : picture.others)
+        if (const Colours same = of_other(picture, other, channels); !same.empty())
+            layer.given.push_back({same, same});
     std::vector<Halves *> all{&layer.rays};
     for (Halves &given : layer.given) all.push_back(&given);
     settle(layer.gathered, all);
+    take_around(layer, picture, channels);
     return layer;
 }
 

@@ -47,11 +47,18 @@ private:
     std::size_t missing_ = 0;
 };
 
+// A frame near the one to finish (frames_around.h).
+struct FrameAround {
+    Image gathered; // with the display window of the frame to finish
+    TwoHalves rays; // made with the gathered picture to finish
+};
+
 struct PictureToFinish {
     Image gathered;
     TwoHalves rays;
     std::vector<TwoHalves> denoised = {}; // the same renders denoised, in the same order
     std::vector<Image> others = {};       // further gathered pictures
+    std::vector<FrameAround> around = {};
 };
 
 struct FinishedPicture {

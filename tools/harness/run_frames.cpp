@@ -110,8 +110,11 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
 }
 
 // Whether -u skips the frame. A frame is not skipped if it adds to an output that holds all frames.
-bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool) {
-    const NamedFiles files = named_files(parsed);
+bool is_up_to_date(const FrameCommand &command, const ToolContext &tool) {
+    const CLI::App &parsed = command.app;
+    NamedFiles files = named_files(parsed);
+    if (command.job.also_reads)
+        for (std::string &path : command.job.also_reads(tool)) files.inputs.push_back({"", std::move(path)});
     if (std::ranges::any_of(files.outputs, [](const NamedFile &file) { return holds_all_frames(file.path); }))
         return false;
     const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
@@ -208,6 +211,9 @@ int run_words(const std::string &name, const std::string &description, const std
         const std::shared_ptr<FrameCommand> command = std::move(parsed);
         const Tool tool = context_of(name, *command);
         if (commands->is_range()) tool->frame = commands->number(i);
+        tool->other_frame = [all = &*commands, i](const std::string &word, int later) {
+            return all->other_frame(i, word, later);
+        };
         tool->keeps = neighbours.keeps_for_next(i);
         const bool two_fit = two_at_once.fit(i, peak_memory());
         tool->warned = warned;
@@ -218,7 +224,7 @@ int run_words(const std::string &name, const std::string &description, const std
         });
         const bool aside = i + 1 < count && has_threads();
         const auto work = [=] {
-            if (!command->frames.update || !is_up_to_date(command->app, *tool)) command->job.work(*tool);
+            if (!command->frames.update || !is_up_to_date(*command, *tool)) command->job.work(*tool);
             if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
         };
         const auto last_step = [=] {

@@ -23,8 +23,12 @@ struct ToolContext {
     std::unique_ptr<Progress> progress;      // never null
     std::string stats;                       // the file for write_stats(); empty: none
     std::optional<int> frame;                // the number of the frame in a range
-    bool keeps = false;                      // holds something for the next frame, see Job::keeps
-    std::string command_line;                // see history.h
+    // The name that stands for `name`, a word of the command, `later` frames later, also beyond the range. A name of no
+    // sequence stays the same. Never null.
+    std::function<std::string(const std::string &name, int later)> other_frame = [](const std::string &name,
+                                                                                    int) { return name; };
+    bool keeps = false;       // holds something for the next frame, see Job::keeps
+    std::string command_line; // see history.h
 
     // The kinds of warning that warn_once() has printed in this range of frames; never null.
     std::shared_ptr<std::set<std::string>> warned = std::make_shared<std::set<std::string>>();
@@ -54,6 +58,8 @@ struct Job {
     // this one. Frames with different names may be worked on at the same time, on any thread, and write files only in
     // their last steps. Without this function, all frames run one after the other.
     std::function<std::string()> keeps = {};
+    // The files that the work reads besides those that its options name.
+    std::function<std::vector<std::string>(const ToolContext &)> also_reads = {};
     // Whether it makes one output of the moments of a shutter, whose files one name with %s names. Other tools run once
     // for each moment (commands/each_moment.h).
     bool joins_moments = false;

@@ -47,6 +47,12 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
         ->type_name("FILE")
         ->take_all()
         ->allow_extra_args(false);
+    app.add_option(
+           "--neighbours", options.neighbours,
+           "Frames before and after whose gathered pictures and renders show where errors stay the same; "
+           "those that exist are used (default: 0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 16));
 }
 
 } // namespace
@@ -72,11 +78,14 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
     add_history_option(app, options.history);
-    add_examples(app,
-                 {{"Make a gathered picture exact by two renders through the lens",
-                   "dof-finish picture.exr rays_1.exr rays_2.exr -o final.exr"},
-                  {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
-                                                 "--show trust"}});
+    add_examples(
+        app, {{"Make a gathered picture exact by two renders through the lens",
+               "dof-finish picture.exr rays_1.exr rays_2.exr -o final.exr"},
+              {"Finish a sequence with the renders of two frames before and after each frame",
+               "dof-finish picture.####.exr rays_1.####.exr rays_2.####.exr -o final.####.exr --frames 1-48 "
+               "--neighbours 2"},
+              {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
+                                             "--show trust"}});
     app.final_callback([&options] { check(options); });
 }
 

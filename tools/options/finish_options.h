@@ -17,6 +17,7 @@ struct FinishCommand {
     std::string gathered, output;
     std::vector<std::string> renders, denoised, others;
     std::vector<double> samples; // of each render; empty: from their headers
+    int neighbours = 0;          // frames before and after that are used
     std::optional<double> goal;  // dB
     ShowFinished show = ShowFinished::picture;
     ColourOptions colour; // for the output

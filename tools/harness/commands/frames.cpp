@@ -229,10 +229,19 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
                                          word.value));
 }
 
+int FrameCommands::number_of(const Word &word, std::size_t i) const {
+    return word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i];
+}
+
+std::string FrameCommands::other_frame(std::size_t i, const std::string &name, int later) const {
+    for (const Word &word : words_)
+        if (word.is_sequence && is_range() && file_at(word.value, number_of(word, i)) == name)
+            return file_at(word.value, number_of(word, i) + later);
+    return name;
+}
+
 std::string FrameCommands::word_at(const Word &word, std::size_t i) const {
-    if (word.is_sequence)
-        return word.before +
-               file_at(word.value, word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i]);
+    if (word.is_sequence) return word.before + file_at(word.value, number_of(word, i));
     return word.before + (word.keys ? word_at_frame(*word.keys, numbers_[i]) : word.value);
 }
 

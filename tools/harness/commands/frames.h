@@ -41,6 +41,9 @@ public:
     std::size_t size() const { return is_range() ? numbers_.size() : 1; }
     int number(std::size_t i) const { return numbers_[i]; }
     std::vector<std::string> words(std::size_t i) const;
+    // The name that stands for `name`, a word of frame i, `later` frames later, also beyond the range. A name of no
+    // sequence stays the same.
+    std::string other_frame(std::size_t i, const std::string &name, int later) const;
 
 private:
     struct Word {
@@ -51,6 +54,7 @@ private:
         std::vector<int> own_numbers; // of a sequence with its own range
     };
     static Word read_word(const std::string &text, const std::string &previous, bool names_are_names);
+    int number_of(const Word &word, std::size_t i) const; // in the names of the sequence
     std::string word_at(const Word &word, std::size_t i) const;
 
     std::vector<Word> words_;
