@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sparselens::python {
 
@@ -62,6 +63,25 @@ TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector
     return halves;
 }
 
+// Pairs of a gathered picture and its renders.
+std::vector<std::pair<const PictureObject *, Pictures>> frames_of(const py::object &given,
+                                                                  std::size_t renders) {
+    std::vector<std::pair<const PictureObject *, Pictures>> frames;
+    if (given.is_none()) return frames;
+    constexpr const char *wanted = "a sequence of pairs: a Picture and its renders";
+    if (!py::isinstance<py::sequence>(given)) wrong_type("around", wanted, given);
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given)) {
+        const bool is_pair =
+            (py::isinstance<py::tuple>(item) || py::isinstance<py::list>(item)) && py::len(item) == 2;
+        if (!is_pair) wrong_type("around", wanted, given);
+        const auto pair = py::reinterpret_borrow<py::sequence>(item);
+        frames.emplace_back(&argument<PictureObject>(pair[0], "around", wanted),
+                            pictures_of(pair[1], "around"));
+        check_count("around", frames.back().second.size(), renders);
+    }
+    return frames;
+}
+
 // A picture with the channel Y: one value per pixel.
 PictureObject map_of(const Values &values, const Windows &windows) {
     PictureObject map{Image(windows, {{"Y", PixelType::float32}}), {}};
@@ -83,11 +103,14 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     check_count("samples", samples.size(), renders.size());
     const Pictures denoised = pictures_of(keywords.take("denoised"), "denoised");
     if (!denoised.empty()) check_count("denoised", denoised.size(), renders.size());
+    const auto around = frames_of(keywords.take("around"), renders.size());
     const py::object progress = keywords.take("progress");
     keywords.done();
     FinishedPicture made = job<FinishedPicture>(progress, [&](Progress &said) {
         PictureToFinish picture{in.image, added_up("rays", renders, samples, in.image)};
         if (!denoised.empty()) picture.denoised.push_back(added_up("denoised", denoised, samples, in.image));
+        for (const auto &[other, of_other] : around)
+            picture.around.push_back({other->image, added_up("around", of_other, samples, in.image)});
         return finish_picture(std::move(picture), said);
     });
     for (const std::string &text : made.mistakes.warnings()) warn(text);

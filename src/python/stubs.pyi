@@ -553,6 +553,7 @@ def finish(
     *,
     samples: Optional[Sequence[float]] = None,
     denoised: Optional[Sequence[Picture]] = None,
+    around: Optional[Sequence[tuple[Picture, Sequence[Picture]]]] = None,
     progress: Optional[_Progress] = None,
 ) -> _Finished:
     """Corrects a gathered picture by two or more renders of a few rays through the same lens, each with a seed of its
@@ -564,6 +565,7 @@ def finish(
     gathered: the Picture of gather(). rays: a sequence of Picture.
     samples: rays per pixel of each (default: as their files say, else the same for all).
     denoised: each of rays after a denoiser, denoised by itself.
+    around: the frames before and after: the gathered picture and the renders of each.
     progress: called with the name of the stage and a whole percentage.
 
     Raises UsageError if there is only one render, and Error if the sizes differ or there are no R, G and B."""

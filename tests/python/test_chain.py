@@ -355,6 +355,12 @@ def test_finish(clustered, tool, tmp_path):
     assert 0 < finished["error"]["Y"].mean() < 0.1
     unequal = sparselens.finish(gathered, rays, samples=[64, 16], denoised=rays)
     assert not numpy.array_equal(unequal["picture"].pixels, finished["picture"].pixels)
+    more = sparselens.finish(gathered, rays, around=[(gathered, rays[::-1])])
+    assert more["mse"] < finished["mse"]
+    with pytest.raises(sparselens.UsageError, match="around: 1 for 2"):
+        sparselens.finish(gathered, rays, around=[(gathered, rays[:1])])
+    with pytest.raises(TypeError, match="around"):
+        sparselens.finish(gathered, rays, around=[gathered])
     with pytest.raises(sparselens.UsageError, match="one render alone"):
         sparselens.finish(gathered, rays[:1])
     with pytest.raises(sparselens.UsageError, match="samples: 1 for 2"):

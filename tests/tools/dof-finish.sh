@@ -105,6 +105,31 @@ for input in --denoised=$one,b.0001.exr --gathered=b.0001.exr; do
     fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
 done
 
+# --neighbours: the renders of the frames around, of other seeds, are as good as more rays; also beyond the range.
+for frame in 1 2 3; do
+    cp gathered.exr n.000$frame.exr
+    exits 0 "$bin/dof-trace" fence --size 160x90 --views 0 --spp 1 --halves 80 --seed $frame -d float -o seed
+    for k in 1 2; do mv seed/rays_$k.exr n$k.000$frame.exr; done
+done
+sequence=(n.####.exr n1.####.exr n2.####.exr)
+exits 0 "$finish" "${sequence[@]}" -o alone.####.exr --frames 1-3
+exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 1 -v
+[ "$(grep -c 'frames around: 1' stderr) $(grep -c 'frames around: 2' stderr)" = "2 1" ] || fail "--neighbours -v: $(cat stderr)"
+holds "$(decibels around.0002.exr $truth) > $(decibels alone.0002.exr $truth) + 1" "--neighbours: $(decibels around.0002.exr $truth)"
+exits 0 "$finish" "${sequence[@]}" -o chunk.####.exr --frames 2-2 --neighbours 1 --threads 1
+same chunk.0002.exr around.0002.exr "a frame alone has its neighbours"
+exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 1 -u -v
+[ "$(grep -c 'is up to date' stderr)" -eq 3 ] || fail "-u with --neighbours: $(cat stderr)"
+sleep 0.01
+touch n2.0003.exr
+exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 1 -u -v
+[ "$(grep -c 'is up to date' stderr)" -eq 1 ] || fail "-u after a neighbour changed: $(cat stderr)"
+fails_saying 2 'gathered.exr is the same for all frames: give a sequence' "$finish" gathered.exr $one $two -o x.exr --neighbours 1
+fails_saying 2 '--neighbours' "$finish" "${sequence[@]}" -o x.####.exr --frames 1-3 --neighbours -1
+cp n.0001.exr kept.exr
+oiiotool kept.exr --crop 80x45+0+0 --fullpixels -o n.0001.exr
+fails_saying 1 'n.0001.exr: its size differs from that of n.0002.exr' "$finish" "${sequence[@]}" -o x.####.exr --frames 2-2 --neighbours 1
+
 # Non-finite pixels stay as gathered; alpha and depth are unchanged.
 picture edit $one nan.exr fill=3x3+50+40 R=nan
 exits 0 "$finish" gathered.exr nan.exr $two -o mended.exr
