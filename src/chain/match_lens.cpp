@@ -101,7 +101,7 @@ Found best_fit(const Match &match, const Reduced &fine, bool highlights) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
                lead(fits.front(), other) < MatchTuning::least_lead;
     });
-    return {std::move(fits.front()), is_ambiguous};
+    return {widened(fine.pictures, known, std::move(fits.front())), is_ambiguous};
 }
 
 struct Attempt {

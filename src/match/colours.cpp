@@ -77,4 +77,33 @@ Grey brightness(const Colours &of) {
     return result;
 }
 
+Colours difference(Colours a, const Colours &b, double step) {
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < a.rgb[k].size(); ++i)
+            a.rgb[k][i] = float((double(a.rgb[k][i]) - double(b.rgb[k][i])) / step);
+    return a;
+}
+
+Colours black(const Grid &grid) {
+    const std::vector<float> plane(grid.size());
+    return {grid, {plane, plane, plane}};
+}
+
+std::pair<Colours, Colours> motion_changes(const Colours &of) {
+    Colours along = black(of.grid), across = along;
+    const Imath::Box2i box = of.grid.box();
+    for (std::size_t k = 0; k < 3; ++k)
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) {
+                const auto at = [&](int dx, int dy) {
+                    return of.rgb[k][of.grid.index(std::clamp(x + dx, box.min.x, box.max.x),
+                                                   std::clamp(y + dy, box.min.y, box.max.y))];
+                };
+                const std::size_t i = of.grid.index(x, y);
+                along.rgb[k][i] = (at(1, 0) + at(-1, 0) - at(0, 1) - at(0, -1)) / 4;
+                across.rgb[k][i] = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 8;
+            }
+    return {std::move(along), std::move(across)};
+}
+
 } // namespace sparselens

@@ -5,6 +5,7 @@
 #include "base/grid.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -29,5 +30,13 @@ Colours tone_mapped(Colours linear);
 
 // The mean of R, G and B of tone-mapped colours.
 Grey brightness(const Colours &of);
+
+Colours black(const Grid &grid);
+
+// (a - b) / step.
+Colours difference(Colours a, const Colours &b, double step);
+
+// How a picture changes if it is blurred more along x than along y, and along the falling diagonal.
+std::pair<Colours, Colours> motion_changes(const Colours &of);
 
 } // namespace sparselens

@@ -39,6 +39,18 @@ std::vector<double> cocs(const Comparison &pictures, const KnownLens &known, dou
 
 double half_range(const Comparison &pictures) { return std::max((pictures.near - pictures.far) / 2, 0.5); }
 
+BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &known) {
+    guess.scale = known.scale
+                      ? *known.scale
+                      : std::clamp(guess.scale, 0.05 * MatchTuning::narrowest_px / half_range(pictures),
+                                   MatchTuning::widest * 1.5);
+    guess.softness = std::clamp(guess.softness, MatchTuning::least_softness, MatchTuning::most_softness);
+    const double focus =
+        known.focus ? *known.focus : std::max(pictures.middle + guess.coc / guess.scale, 0.0);
+    guess.coc = guess.scale * (focus - pictures.middle);
+    return guess;
+}
+
 Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness) {
     return with_curve_of(pictures.colours, pictures.usable, tone_mapped(softened(gathered, softness)));
 }
@@ -73,6 +85,15 @@ std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &
             chosen.push_back(one.guess);
     }
     return chosen;
+}
+
+std::array<LensAxis, 2> axes_of(const LensCovariance &covariance, double half_range) {
+    const double coc = covariance.coc, both = half_range * covariance.both,
+                 ends = half_range * half_range * covariance.scale;
+    const double turn = 0.5 * std::atan2(2 * both, coc - ends), middle = (coc + ends) / 2,
+                 more = std::hypot((coc - ends) / 2, both);
+    return {LensAxis{std::cos(turn), std::sin(turn), middle + more},
+            LensAxis{-std::sin(turn), std::cos(turn), std::max(middle - more, 0.0)}};
 }
 
 double lead(const LensFit &a, const LensFit &b) {

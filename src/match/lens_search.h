@@ -8,6 +8,7 @@
 #include "match/blocks.h"
 #include "match/colours.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -39,6 +40,9 @@ struct KnownLens {
 // Half the range of perceptive depths, at least half a pixel.
 double half_range(const Comparison &pictures);
 
+// Keeps a guess within what lenses do: the focus is not beyond infinity, and where it is known, it stays.
+BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &known);
+
 // The gathered picture as a plate of this softness shows it, with the tone curve of the plate.
 Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness);
 
@@ -46,6 +50,15 @@ Colours as_plate(const Comparison &pictures, const Colours &gathered, double sof
 struct LensCovariance {
     double coc = 0, both = 0, scale = 0;
 };
+
+// An axis of the ellipse that is one deviation: its direction, of unit length, in pixels of CoC at the middle depth and
+// at the ends; and its variance.
+struct LensAxis {
+    double coc = 0, ends = 0, variance = 0;
+};
+
+// The longer one first. `half_range`: of the perceptive depths.
+std::array<LensAxis, 2> axes_of(const LensCovariance &covariance, double half_range);
 
 struct LensFit {
     BlurGuess guess;
@@ -66,6 +79,11 @@ LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGues
 
 // The sum over the blocks.
 double likelihood_of(const std::vector<BlockFit> &blocks);
+
+// Widens the covariance to what the likelihood of other lenses says, and goes to a better lens among them if there is
+// one. The blocks' derivatives alone make it too narrow: they contain the noise of the gathered pictures, so the blocks
+// seem to tell lenses apart that fit about as well. A lens that is d deviations away is worse by a lead of d / 2.
+LensFit widened(const Comparison &pictures, const KnownLens &known, LensFit fit);
 
 // How much better `a` fits than `b`, in standard deviations of what the blocks say.
 double lead(const LensFit &a, const LensFit &b);

@@ -4,56 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace sparselens {
 
 namespace {
 
 constexpr std::size_t coc_change = 0, ends_change = 1, softness_change = 2, first_motion = 3;
-
-// Keeps a guess within what lenses do: the focus is not beyond infinity, and where it is known, it stays.
-BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &known) {
-    guess.scale = known.scale
-                      ? *known.scale
-                      : std::clamp(guess.scale, 0.05 * MatchTuning::narrowest_px / half_range(pictures),
-                                   MatchTuning::widest * 1.5);
-    guess.softness = std::clamp(guess.softness, MatchTuning::least_softness, MatchTuning::most_softness);
-    const double focus =
-        known.focus ? *known.focus : std::max(pictures.middle + guess.coc / guess.scale, 0.0);
-    guess.coc = guess.scale * (focus - pictures.middle);
-    return guess;
-}
-
-Colours difference(Colours a, const Colours &b, double step) {
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < a.rgb[k].size(); ++i)
-            a.rgb[k][i] = float((double(a.rgb[k][i]) - double(b.rgb[k][i])) / step);
-    return a;
-}
-
-Colours of_size(const Grid &grid) {
-    const std::vector<float> plane(grid.size());
-    return {grid, {plane, plane, plane}};
-}
-
-// How a picture changes if it is blurred more along x than along y, and along the falling diagonal.
-std::pair<Colours, Colours> motion_changes(const Colours &of) {
-    Colours along = of_size(of.grid), across = along;
-    const Imath::Box2i box = of.grid.box();
-    for (std::size_t k = 0; k < 3; ++k)
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) {
-                const auto at = [&](int dx, int dy) {
-                    return of.rgb[k][of.grid.index(std::clamp(x + dx, box.min.x, box.max.x),
-                                                   std::clamp(y + dy, box.min.y, box.max.y))];
-                };
-                const std::size_t i = of.grid.index(x, y);
-                along.rgb[k][i] = (at(1, 0) + at(-1, 0) - at(0, 1) - at(0, -1)) / 4;
-                across.rgb[k][i] = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 8;
-            }
-    return {std::move(along), std::move(across)};
-}
 
 // A guess and its pictures: as gathered, and as the plate shows them.
 struct Likely {
@@ -76,26 +35,82 @@ public:
     LensFit from(const BlurGuess &guess, int steps, double reach) const {
         Likely best = softest(guess);
         Slopes slopes;
-        for (int step = 0; step < steps && reach >= MatchTuning::settled_px; ++step) {
+        for (int step = 0; step < steps; ++step) {
             const BlurGuess before = best.guess;
             Likely better = best;
             slopes = slopes_at(best, reach, better);
-            const Changes by = step_of(blocks_at(best, slopes));
-            for (const double share : {1.0, 0.5}) {
-                const Likely there = softest(moved(before, share * by[coc_change], share * by[ends_change],
-                                                   before.softness + share * by[softness_change]));
-                keep_better(better, there);
-                if (there.likelihood > best.likelihood) break;
-            }
+            keep_better(better, along(best, step_of(blocks_at(best, slopes))));
             best = std::move(better);
-            if (distance(before, best.guess) < MatchTuning::same_reach * reach) reach /= 2;
+            const double length = distance(before, best.guess);
+            if (reach <= MatchTuning::settled_px && length < MatchTuning::gather_coc_px) break;
+            if (length < MatchTuning::same_reach * reach)
+                reach = std::max(reach / 2, MatchTuning::settled_px);
         }
         return fit_at(best, slopes);
     }
 
+    // Looks along the axes of the covariance to both sides, until other lenses fit worse. Returns the best of them, if
+    // it fits better.
+    std::optional<BlurGuess> widen(LensFit &fit) const {
+        const Likely at = softest(fit.guess);
+        Likely better = at;
+        fit = fit_at(at, slopes_at(at, MatchTuning::final_reach_px, better));
+        const auto axes = axes_of(fit.covariance, half_range(pictures_));
+        LensCovariance wider{};
+        for (const LensAxis &axis : axes) {
+            double variance = axis.variance;
+            if (!(variance > 0)) continue; // what is known
+            for (const double side : {-1.0, 1.0})
+                variance = std::max(variance, look_along(fit, axis, side, better));
+            const double ends = axis.ends / half_range(pictures_);
+            wider.coc += variance * axis.coc * axis.coc;
+            wider.both += variance * axis.coc * ends;
+            wider.scale += variance * ends * ends;
+        }
+        fit.covariance = wider;
+        if (better.likelihood <= at.likelihood) return {};
+        return better.guess;
+    }
+
 private:
+    // The variance that the likelihood has on one side of an axis: 0 if there are no lenses.
+    double look_along(const LensFit &fit, const LensAxis &axis, double side, Likely &better) const {
+        double variance = 0;
+        for (double away = MatchTuning::final_reach_px; away <= MatchTuning::farthest_px; away *= 2) {
+            const Likely there = softest(
+                moved(fit.guess, side * away * axis.coc, side * away * axis.ends, fit.guess.softness));
+            const double apart = std::hypot(there.guess.coc - fit.guess.coc,
+                                            half_range(pictures_) * (there.guess.scale - fit.guess.scale));
+            if (apart < away / 2) break;
+            keep_better(better, there);
+            LensFit other;
+            other.blocks = fit_blocks(pictures_.plate, pictures_.usable, there.shown, {});
+            const double worse = lead(fit, other);
+            variance = std::pow(apart / (2 * std::max(worse, 1.0)), 2);
+            if (worse >= 1) break;
+        }
+        return variance;
+    }
+
     static void keep_better(Likely &best, const Likely &other) {
         if (other.likelihood > best.likelihood) best = other;
+    }
+
+    // The best picture along a step. Noise of the gathered pictures, which their differences have too, makes steps many
+    // times too short, so a step is doubled as long as that helps; and it is halved if it does not help.
+    Likely along(const Likely &from, const Changes &by) const {
+        const auto there = [&](double share) {
+            return softest(moved(from.guess, share * by[coc_change], share * by[ends_change],
+                                 from.guess.softness + share * by[softness_change]));
+        };
+        Likely best = there(1);
+        if (best.likelihood <= from.likelihood) return there(0.5);
+        for (double share = 2; share <= MatchTuning::longest_share; share *= 2) {
+            Likely next = there(share);
+            if (next.likelihood <= best.likelihood) break;
+            best = std::move(next);
+        }
+        return best;
     }
 
     // `x` changes the CoC at the middle depth, `y` that at the ends of the range of depths, both in pixels.
@@ -158,7 +173,7 @@ private:
                                         : (more.guess.scale - less.guess.scale) * half_range(pictures_);
             return difference(more.shown, less.shown, std::max(apart, 1e-6));
         };
-        Slopes slopes{of_size(at.linear.grid), of_size(at.linear.grid)};
+        Slopes slopes{black(at.linear.grid), black(at.linear.grid)};
         if (is_free_[coc_change]) slopes.by_coc = slope(reach, 0);
         if (is_free_[ends_change]) slopes.by_ends = slope(0, reach);
         return slopes;
@@ -216,6 +231,16 @@ private:
 LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps,
                     double reach_px) {
     return Refining(pictures, known).from(guess, steps, reach_px);
+}
+
+LensFit widened(const Comparison &pictures, const KnownLens &known, LensFit fit) {
+    if (known.focus && known.scale) return fit;
+    const Refining refining(pictures, known);
+    if (const auto better = refining.widen(fit)) {
+        fit = refining.from(*better, MatchTuning::final_steps, MatchTuning::final_reach_px);
+        refining.widen(fit);
+    }
+    return fit;
 }
 
 } // namespace sparselens

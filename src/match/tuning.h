@@ -78,13 +78,14 @@ struct MatchTuning {
     // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit of a first frame has
     // final quality, that of a next frame normal quality, whose noise passes for softness: the lens is 2 % smaller.
     static constexpr int search_points = 32, refine_points = 64;
-    // How many of the best guesses are refined, and how often.
-    static constexpr int refined_guesses = 3, search_steps = 2, final_steps = 3, next_frame_steps = 2;
+    // How many of the best guesses are refined, and how often at most.
+    static constexpr int refined_guesses = 3, search_steps = 8, final_steps = 8, next_frame_steps = 2;
     // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This
-    // reach halves after a step that is shorter than a share of it, and the fit ends when it is below `settled_px`.
-    // The longest step.
+    // reach halves after a step that is shorter than a share of it, down to `settled_px`; there a step shorter than
+    // `gather_coc_px` ends the fit. The longest step, and the longest multiple of a step: on plates of scales and macro
+    // steps were 3 to 5 times too short.
     static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, settled_px = 0.3, same_reach = 0.75,
-                            farthest_px = 3;
+                            farthest_px = 3, longest_share = 8;
     // The step of the softness's variance for its derivative, and its range, square pixels. It is negative where a plate
     // is sharper than the gathered picture, which the warp of the views softens a little.
     static constexpr double softness_step = 0.2, least_softness = -0.4, most_softness = 9;

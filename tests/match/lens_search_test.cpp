@@ -64,6 +64,58 @@ TEST(LensSearch, noise_widens_the_spread) {
     EXPECT_NEAR(after.guess.scale, 0.7, 4 * std::sqrt(after.covariance.scale) + 0.02);
 }
 
+// Each gathered picture has noise of its own, as those of lens points have.
+Comparison noisy_slope_before(const Colours &plate, float amount) {
+    Comparison pictures = test::slope_before(plate);
+    pictures.gather = [gather = pictures.gather, amount](double coc, double scale, bool exactly) {
+        Colours gathered = gather(coc, scale, exactly);
+        auto state = std::uint32_t(std::llround(1e6 * std::abs(coc) + 1e8 * scale));
+        for (std::vector<float> &plane : gathered.rgb)
+            for (float &v : plane) {
+                state = state * 1664525u + 1013904223u;
+                v += amount * (float(state >> 8) / float(1 << 24) - 0.5f);
+            }
+        return gathered;
+    };
+    return pictures;
+}
+
+// The noise makes steps too short. They must not be taken for the end of the way.
+TEST(LensSearch, noise_of_gathered_pictures_does_not_stop_the_search) {
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
+    const LensFit fit = refine_lens(pictures, {}, {3.5, 1.1, 0.3}, 8, 0.75);
+    EXPECT_NEAR(fit.guess.coc, 1, 0.1);
+    EXPECT_NEAR(fit.guess.scale, 0.7, 0.04); // the noise passes for softness
+}
+
+TEST(LensSearch, the_interval_is_as_wide_as_other_lenses_fit) {
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
+    const LensFit narrow = refine_lens(pictures, {}, {1, 0.7, 0.15}, 1, 0.75),
+                  wide = widened(pictures, {}, narrow);
+    EXPECT_GT(wide.covariance.coc, 2 * narrow.covariance.coc);
+    EXPECT_NEAR(wide.guess.coc, 1, 0.1);
+    const KnownLens known{.focus = 9};
+    const LensFit by_focus =
+        widened(pictures, known, refine_lens(pictures, known, {1.4, 0.7, 0.15}, 1, 0.75));
+    EXPECT_NEAR(by_focus.covariance.coc, 0, 1e-12);
+    EXPECT_GT(by_focus.covariance.scale, 0);
+}
+
+TEST(LensSearch, goes_to_a_better_lens_beside) {
+    const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)));
+    const LensFit wrong = refine_lens(pictures, {}, {3.5, 1.1, 0.3}, 1, 0.75);
+    EXPECT_GT(std::abs(wrong.guess.coc - 1), 0.5);
+    EXPECT_NEAR(widened(pictures, {}, wrong).guess.coc, 1, 0.1);
+}
+
+TEST(LensSearch, axes_of_an_ellipse) {
+    const auto [longer, shorter] = axes_of({5, 2 / 4.0, 2 / 16.0}, 4); // 5 2, 2 2: variances 6 and 1
+    EXPECT_NEAR(longer.variance, 6, 1e-12);
+    EXPECT_NEAR(shorter.variance, 1, 1e-12);
+    EXPECT_NEAR(std::abs(longer.coc), 2 / std::sqrt(5.0), 1e-12);
+    EXPECT_NEAR(longer.coc, 2 * longer.ends, 1e-12);
+}
+
 TEST(Evidence, a_picture_matches_itself_and_not_another) {
     const Colours shown = test::waves(192, 96);
     const Colours other = test::colours(192, 96, [](double x, double y, std::size_t k) {
