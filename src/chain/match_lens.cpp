@@ -44,7 +44,7 @@ std::vector<LensFit> hills_of(const Comparison &pictures, std::vector<LensFit> f
     std::vector<LensFit> hills;
     for (LensFit &fit : fits) {
         const auto is_near = [&](const LensFit &hill) {
-            return distance(pictures, hill.guess, fit.guess) < MatchTuning::search_step;
+            return distance(pictures, hill.guess, fit.guess) < MatchTuning::final_reach_px;
         };
         if (std::ranges::any_of(hills, is_near)) continue;
         if (!hills.empty() && lead(hills.front(), fit) > MatchTuning::certain_lead) continue;

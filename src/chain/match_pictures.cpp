@@ -136,10 +136,10 @@ void Reduced::leave_out_highlights(const Match &match) {
     const std::vector<std::uint8_t> clipped = clipped_pixels(plate);
     const Grid grid(box_);
     std::vector<std::uint8_t> left = pictures.usable;
+    const int reach = (MatchTuning::beside_clipped + by_ - 1) / by_;
     for (std::size_t i = 0; i < clipped.size(); ++i) {
         if (!clipped[i]) continue;
-        const Imath::V2i at = plate.grid.pixel(i),
-                         beside(MatchTuning::beside_clipped, MatchTuning::beside_clipped);
+        const Imath::V2i at = plate.grid.pixel(i), beside(reach, reach);
         const Imath::V2i middle = reduced(Imath::Box2i(at, at), by_).min;
         const Imath::Box2i around(middle - beside, middle + beside);
         for (int y = around.min.y; y <= around.max.y; ++y)

@@ -24,8 +24,8 @@ struct MatchTuning {
     // A plate clips its highlights if most of its bright pixels, relative to the largest value, are among the brightest.
     // Clipped lamps with grain of 0.03 have 66 % there, other pictures 10 to 20 %.
     static constexpr double bright = 0.95, brightest = 0.99, clipped_share = 0.4;
-    // Pixels this near to clipped ones are not compared, in pixels of the compared pictures.
-    static constexpr int beside_clipped = 2;
+    // Pixels this near to clipped ones are not compared, in pixels of the plate.
+    static constexpr int beside_clipped = 4;
 
     // A block shows something if a fit, in some place, explains this share of its variance.
     static constexpr double explained = 0.3;
