@@ -83,6 +83,7 @@ double likelihood_of(const std::vector<BlockFit> &blocks);
 // Widens the covariance to what the likelihood of other lenses says, and goes to a better lens among them if there is
 // one. The blocks' derivatives alone make it too narrow: they contain the noise of the gathered pictures, so the blocks
 // seem to tell lenses apart that fit about as well. A lens that is d deviations away is worse by a lead of d / 2.
+// Where the focus or the radius is known, the fit stays as it is: on a plate with few lamps, leads are always small.
 LensFit widened(const Comparison &pictures, const KnownLens &known, LensFit fit);
 
 // How much better `a` fits than `b`, in standard deviations of what the blocks say.

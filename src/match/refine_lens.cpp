@@ -59,7 +59,6 @@ public:
         LensCovariance wider{};
         for (const LensAxis &axis : axes) {
             double variance = axis.variance;
-            if (!(variance > 0)) continue; // what is known
             for (const double side : {-1.0, 1.0})
                 variance = std::max(variance, look_along(fit, axis, side, better));
             const double ends = axis.ends / half_range(pictures_);
@@ -234,7 +233,7 @@ LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGues
 }
 
 LensFit widened(const Comparison &pictures, const KnownLens &known, LensFit fit) {
-    if (known.focus && known.scale) return fit;
+    if (known.focus || known.scale) return fit;
     const Refining refining(pictures, known);
     if (const auto better = refining.widen(fit)) {
         fit = refining.from(*better, MatchTuning::final_steps, MatchTuning::final_reach_px);
