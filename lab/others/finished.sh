@@ -2,9 +2,10 @@
 # Makes pictures with dof-finish from five views and rays over the lens, in the folder that lab/denoise filled:
 # finished_N.exr and, with each view and render denoised, finished_N.denoised.exr, with N rays in total. For a scene of
 # dof-trace the rays are divided as by ldi-plan --rays for five views, and half_N.exr has half of them in the views; views
-# are twice as fine if they have four rays per pixel; a focus pull is finished as in more.sh, with the views of one frame
-# and rays for each frame; advice.json says what ldi-plan advises. For ready-made pictures (SCENE is -) all views are
-# finished with drt_64.exr and drt_16.exr, or the views of four samples with each folder halves-N of two renders.
+# are twice as fine if they have four rays per pixel; a focus pull is finished as in more.sh, with the views of one frame,
+# rays for each frame, and those of two frames before and after. advice.json says what ldi-plan advises. For ready-made
+# pictures (SCENE is -) all views are finished with drt_64.exr and drt_16.exr, or the views of four samples with each
+# folder halves-N of two renders.
 #
 #   finished.sh BIN_DIR SCENE [WIDTHxHEIGHT LIGHT PYTHON]
 #
@@ -131,7 +132,8 @@ focus=$(python3 -c 'import json; print(json.load(open("camera.json"))["focus_dis
 for frame in {01..16}; do
     at=$(awk -v f="$focus" -v k="$frame" 'BEGIN { print f * (1 + .1 * (k - 1) / 15) }')
     trace --light "$light" --views 0 --spp 1 --halves 40 --seed $((10 + 10#$frame)) --focus-distance "$at" -o pull
-    dof-gather finished_80.ldi.exr --supersample 2 --focus-distance "$at" -o pull/gathered.exr 2>/dev/null
-    dof-finish pull/gathered.exr pull/rays_{1,2}.exr -o finished_80.pull.00$frame.exr 2>/dev/null
+    for k in 1 2; do mv pull/rays_$k.exr pull/rays_$k.$frame.exr; done
+    dof-gather finished_80.ldi.exr --supersample 2 --focus-distance "$at" -o pull/gathered.$frame.exr 2>/dev/null
 done
+dof-finish pull/gathered.##.exr pull/rays_1.##.exr pull/rays_2.##.exr --frames 1-16 --neighbours 2 -o finished_80.pull.####.exr 2>/dev/null
 rm -rf pull views.ldi.exr gathered.exr
