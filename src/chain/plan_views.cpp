@@ -9,13 +9,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace sparselens {
 
 namespace {
 
-// Of one render of all rays through the lens: from what the lens mixes, and from the light, whose noise the centre view
-// shows. `lens` and `across` are those of the plan.
+// The noise of one render of all rays through the lens: from what the lens mixes, and from the light, whose noise the
+// centre view shows. `lens` and `across` are those of the plan.
 double noise_of_all(const OpenedView &centre, ThinLens lens, const PlanOptions &options, int rays) {
     const auto &[image, z] = std::tie(centre.view.image, centre.view.z);
     const double mixed = noise_of_rays(image, z, lens, options.across, rays);

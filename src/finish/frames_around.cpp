@@ -53,7 +53,8 @@ Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const Gr
 class ChangeByMovement {
 public:
     explicit ChangeByMovement(const Compared &frames)
-        : classes_(FinishTuning::classes, least, most), shares_(FinishTuning::classes) {
+        : classes_(FinishTuning::classes, -FinishTuning::log_of_movement, FinishTuning::log_of_movement),
+          shares_(FinishTuning::classes) {
         const std::size_t pixels = frames.changed.size();
         for (std::size_t i = 0; i < pixels; ++i) classes_.add(movement(frames, i), 1);
         classes_.divide();
@@ -74,8 +75,6 @@ public:
     }
 
 private:
-    static constexpr float least = -14, most = 14; // of the logarithm
-
     static float movement(const Compared &frames, std::size_t i) {
         return std::log((frames.moved[i] + 1e-20f) / (frames.noise[i] + frames.other_noise[i] + 1e-20f));
     }

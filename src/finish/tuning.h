@@ -71,6 +71,9 @@ struct FinishTuning {
     // standard deviations of a mean of 250 pixels, as many as a soft window of radius 4 has. Without this test, fence
     // gains .3 dB less where the camera moves, and 230 instead of 330 pixels of its pull jump by .02.
     static constexpr float residual_deviations = 0.19f;
+    // Pixels are told apart by how much their gathered pictures have changed, relative to the noise, up to e to this power
+    // and its inverse.
+    static constexpr float log_of_movement = 14;
 
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;

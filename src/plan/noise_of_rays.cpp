@@ -1,6 +1,7 @@
 #include "plan/noise_of_rays.h"
 
 #include "base/tone_map.h"
+#include "plan/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,6 @@
 namespace sparselens {
 
 namespace {
-
-// Brighter light counts as this bright: it is white on any display, and squares of larger values leave too few digits
-// for the sums.
-constexpr double brightest = 1e4;
 
 // The pixels over which each pixel's light spreads, corners included.
 using Squares = std::vector<Imath::Box2i>;
@@ -82,7 +79,7 @@ double noise_of_rays(const Image &image, std::span<const float> z, const ThinLen
         ++channels;
         const auto plane = image.plane(channel);
         for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = std::clamp(double(plane[i]), 0.0, brightest);
+            values[i] = std::clamp(double(plane[i]), 0.0, PlanTuning::brightest);
         const std::vector<double> light = spread(grid, squares, values);
         for (double &value : values) value *= value;
         const std::vector<double> squared = spread(grid, squares, values);

@@ -18,6 +18,9 @@ struct PlanTuning {
     // Share of pixels at edges from which views of twice the size, with a quarter of the samples, are worth the larger
     // files. At 640x360 and 20 rays, grass (.30) gains 2.6 dB and fence (.09) 2.1; mist (.04) loses .6.
     static constexpr double many_edges = 0.05;
+    // Scene-linear value: brighter light counts as this bright when the noise of rays is predicted. It is white on any
+    // display, and squares of larger values leave too few digits for sums over pictures.
+    static constexpr double brightest = 1e4;
     // Least number of candidate views on the rim.
     static constexpr int least_candidates = 8;
     // Pixels of margin around an opening of one pixel. There are many such openings, and a larger margin costs more
