@@ -36,7 +36,7 @@ void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
 } // namespace
 
 FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
-    const RayEvidence evidence{layer.rays, layer.samples, layer.grid};
+    const RayEvidence evidence{own_rays(layer), layer.samples, layer.grid};
     FinishedLayer finished;
     finished.kept.assign(layer.grid.size(), 1.0f);
     Trio pictures{layer.gathered, layer.gathered, layer.gathered};

@@ -115,6 +115,7 @@ void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vect
         around.push_back(std::move(other));
     }
     if (around.empty()) return;
+    layer.of_frame = layer.rays;
     FrameOfLayer frame{std::move(layer.gathered), std::move(layer.rays)};
     average_residuals(frame, around, layer.grid);
     layer.gathered = std::move(frame.gathered);
@@ -201,7 +202,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
             finished.mistakes = check_lens(layer);
-            finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
+            finished.error = estimate_error(result, own_rays(layer), layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
         }
         if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)

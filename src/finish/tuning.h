@@ -68,8 +68,7 @@ struct FinishTuning {
     // Radii of the soft windows in which residuals of two frames, and their gathered pictures, are compared, pixels.
     static constexpr int residual_radius = 4, moved_radius = 1;
     // How much a change of residuals in a window must exceed what noise may show there, as a share of the noise: three
-    // standard deviations of a mean of 250 pixels, as many as a soft window of radius 4 has. Without this test, fence
-    // gains .3 dB less where the camera moves, and 230 instead of 330 pixels of its pull jump by .02.
+    // standard deviations of a mean of 250 pixels, as many as a soft window of radius 4 has.
     static constexpr float residual_deviations = 0.19f;
     // Pixels are told apart by how much their gathered pictures have changed, relative to the noise, up to e to this power
     // and its inverse.

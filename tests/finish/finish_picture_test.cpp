@@ -171,5 +171,30 @@ TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
     }
 }
 
+// Frames around whose residuals differ: the error is measured by the frame's own rays, so it is not taken for small.
+TEST(FinishPicture, FramesAroundDoNotHideTheError) {
+    const Colours gathered = blurred(truth, grid, 1);
+    PictureToFinish picture{picture_of(gathered), TwoHalves(picture_of(gathered))};
+    picture.rays.add(render(1));
+    picture.rays.add(render(2));
+    Colours other = truth; // brighter by a twentieth, as much as the noise of a pixel hides
+    for (Values &channel : other)
+        for (float &v : channel) v *= 1.05f;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        TwoHalves halves(picture_of(gathered));
+        for (std::uint32_t half = 0; half < 2; ++half)
+            halves.add({"around.exr", picture_of(rays_of(other, 256, 10 + 2 * k + half)), 256});
+        picture.around.push_back({picture_of(gathered), std::move(halves)});
+    }
+    Progress silent;
+    const FinishedPicture result = finish_picture(std::move(picture), silent);
+    Colours made;
+    for (std::size_t c = 0; c < 3; ++c)
+        made.emplace_back(result.image.plane(c).begin(), result.image.plane(c).end());
+    const auto estimated = decibels(result.error);
+    ASSERT_TRUE(estimated);
+    EXPECT_LT(*estimated, decibels_of(made, truth) + 2);
+}
+
 } // namespace
 } // namespace sparselens
