@@ -19,6 +19,7 @@ cp ldi.exr back.exr
 cp ldi.exr deep.exr
 dof-trace fence --size 160x90 --views 0 --halves 4 -o .
 dof-gather ldi.exr -o picture.exr
+for frame in 0001 0002 0003; do for name in picture rays_1 rays_2; do cp $name.exr $name.$frame.exr; done; done
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced
 

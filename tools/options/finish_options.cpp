@@ -82,7 +82,7 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
         app, {{"Make a gathered picture exact by two renders through the lens",
                "dof-finish picture.exr rays_1.exr rays_2.exr -o final.exr"},
               {"Finish a sequence with the renders of two frames before and after each frame",
-               "dof-finish picture.####.exr rays_1.####.exr rays_2.####.exr -o final.####.exr --frames 1-48 "
+               "dof-finish picture.####.exr rays_1.####.exr rays_2.####.exr -o final.####.exr --frames 1-3 "
                "--neighbours 2"},
               {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
                                              "--show trust"}});
