@@ -46,6 +46,9 @@ Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const Gr
     for (Values *values : {&found.noise, &found.other_noise})
         soft_mean(*values, grid, FinishTuning::residual_radius);
     soft_mean(found.moved, grid, FinishTuning::moved_radius);
+    // Running sums leave values a little below 0 beside lamps.
+    for (Values *values : {&found.noise, &found.other_noise, &found.moved})
+        for (float &value : *values) value = std::max(value, 0.0f);
     return found;
 }
 

@@ -92,6 +92,26 @@ TEST(FramesAround, CountByTheirNoise) {
     for (const float weight : weight_of(clean, clean, 1, grid)) ASSERT_EQ(weight, 0);
 }
 
+// Beside a lamp whose noise is huge, pixels with next to none: running sums lose them.
+TEST(FramesAround, WeightsLieBetweenNoneAndAll) {
+    const Colours black(3, Values(grid.size(), 0.0f));
+    const auto with_lamp = [&](float first, float second) {
+        FrameOfLayer frame{black, {black, black}};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int x = 10; x < 30; ++x) {
+                const bool lamp = x > 20 && x < 24;
+                frame.rays[0][c][grid.index(x, 30)] = lamp ? first : 1e-5f * float(x);
+                frame.rays[1][c][grid.index(x, 30)] = lamp ? second / float(x) : 1e-5f / float(x);
+            }
+        return frame;
+    };
+    const FrameOfLayer frame = with_lamp(1e4f, 3.3e3f), other = with_lamp(7.7e3f, 1.1e4f);
+    for (const float weight : weight_of(frame, other, 1, grid)) {
+        ASSERT_GE(weight, 0);
+        ASSERT_LE(weight, 1);
+    }
+}
+
 TEST(FramesAround, NoneChangeNothing) {
     const Colours truth = synthetic_truth(grid);
     FrameOfLayer frame = frame_of(truth, blurred(truth, grid, 2), 1);
