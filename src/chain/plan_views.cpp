@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace sparselens {
 
@@ -18,7 +17,8 @@ namespace {
 // The noise of one render of all rays through the lens: from what the lens mixes, and from the light, whose noise the
 // centre view shows. `lens` and `across` are those of the plan.
 double noise_of_all(const OpenedView &centre, ThinLens lens, const PlanOptions &options, int rays) {
-    const auto &[image, z] = std::tie(centre.view.image, centre.view.z);
+    const Image &image = centre.view.image;
+    const auto &z = centre.view.z;
     const double mixed = noise_of_rays(image, z, lens, options.across, rays);
     lens.radius = 0; // the noise of each pixel by itself
     const std::vector<double> light = noise_in_lens_picture(image, z, lens, options.noise);

@@ -9,11 +9,12 @@ namespace sparselens {
 
 namespace {
 
-Halves regressed(const LayerToFinish &layer, const Values &weights, const FinishTuning::Window &window) {
+Halves regressed(const LayerToFinish &layer, const Halves &rays, const Values &weights,
+                 const FinishTuning::Window &window) {
     Halves predicted;
     for (std::size_t c = 0; c < layer.gathered.size(); ++c) {
         const Regression on_guide(layer.gathered[c], weights, layer.grid, window);
-        for (std::size_t k = 0; k < 2; ++k) predicted[k].push_back(on_guide.of(layer.rays[k][c]));
+        for (std::size_t k = 0; k < 2; ++k) predicted[k].push_back(on_guide.of(rays[k][c]));
     }
     return predicted;
 }
@@ -36,7 +37,7 @@ void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
 } // namespace
 
 FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
-    const RayEvidence evidence{own_rays(layer), layer.samples, layer.grid};
+    const RayEvidence evidence{layer.rays, layer.samples, layer.grid};
     FinishedLayer finished;
     finished.kept.assign(layer.grid.size(), 1.0f);
     Trio pictures{layer.gathered, layer.gathered, layer.gathered};
@@ -46,11 +47,12 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
     };
     progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
     for (const Halves &given : layer.given) offer(given);
+    const Halves &rays = layer.averaged[0].empty() ? layer.rays : layer.averaged;
     const Values weights = tone_weights(layer.gathered);
     for (const FinishTuning::Window &window : FinishTuning::regression_windows)
-        offer(regressed(layer, weights, window));
-    offer(layer.rays);
-    offer(means_of_similar(layer.rays, pictures[2], layer.grid));
+        offer(regressed(layer, rays, weights, window));
+    offer(rays);
+    offer(means_of_similar(rays, pictures[2], layer.grid));
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
     keep_agreed(layer, finished);

@@ -23,13 +23,8 @@ struct LayerToFinish {
     Halves rays;
     std::array<double, 2> samples{1, 1}; // per pixel, > 0: of each render
     std::vector<Halves> given = {};      // for each render: its denoised version, or the same picture twice
-    Halves of_frame = {}; // without those of frames around, if `rays` have them: they test all candidates
+    Halves averaged = {}; // the rays with those of frames around (frames_around.h), for candidates; or empty
 };
-
-// The rays of the frame itself.
-inline const Halves &own_rays(const LayerToFinish &layer) {
-    return layer.of_frame[0].empty() ? layer.rays : layer.of_frame;
-}
 
 struct FinishedLayer {
     Colours picture;

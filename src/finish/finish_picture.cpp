@@ -102,7 +102,7 @@ Colours of_other(const PictureToFinish &picture, const Image &other,
     return colours;
 }
 
-// Averages the layer's rays with those of the frames around.
+// Averages a copy of the layer's rays with those of the frames around.
 void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vector<std::size_t> &channels) {
     std::vector<FrameOfLayer> around;
     for (FrameAround &near : picture.around) {
@@ -115,9 +115,8 @@ void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vect
         around.push_back(std::move(other));
     }
     if (around.empty()) return;
-    layer.of_frame = layer.rays;
     FrameOfLayer frame{std::move(layer.gathered), std::move(layer.rays)};
-    average_residuals(frame, around, layer.grid);
+    layer.averaged = averaged_rays(frame, around, layer.grid);
     layer.gathered = std::move(frame.gathered);
     layer.rays = std::move(frame.rays);
 }
@@ -202,7 +201,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
             finished.mistakes = check_lens(layer);
-            finished.error = estimate_error(result, own_rays(layer), layer.samples, layer.grid);
+            finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
         }
         if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)

@@ -23,7 +23,9 @@ float residual(const FrameOfLayer &frame, std::size_t half, std::size_t channel,
 struct Compared {
     Values changed;            // product of both changes of the residual
     Values noise, other_noise; // of one residual of each frame, squared
-    Values moved;              // squared change of the gathered picture
+    Values moved;              // logarithm of the squared change of the gathered picture over the noise
+
+    float both(std::size_t i) const { return noise[i] + other_noise[i]; }
 };
 
 Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const Grid &grid) {
@@ -49,6 +51,8 @@ Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const Gr
     // Running sums leave values a little below 0 beside lamps.
     for (Values *values : {&found.noise, &found.other_noise, &found.moved})
         for (float &value : *values) value = std::max(value, 0.0f);
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        found.moved[i] = std::log((found.moved[i] + 1e-20f) / (found.both(i) + 1e-20f));
     return found;
 }
 
@@ -59,13 +63,13 @@ public:
         : classes_(FinishTuning::classes, -FinishTuning::log_of_movement, FinishTuning::log_of_movement),
           shares_(FinishTuning::classes) {
         const std::size_t pixels = frames.changed.size();
-        for (std::size_t i = 0; i < pixels; ++i) classes_.add(movement(frames, i), 1);
+        for (std::size_t i = 0; i < pixels; ++i) classes_.add(frames.moved[i], 1);
         classes_.divide();
         std::vector<std::size_t> counts(shares_.size());
         for (std::size_t i = 0; i < pixels; ++i) {
-            const float noise = frames.noise[i] + frames.other_noise[i];
+            const float noise = frames.both(i);
             if (!(noise > 0)) continue;
-            const std::size_t at = classes_.of(movement(frames, i));
+            const std::size_t at = classes_.of(frames.moved[i]);
             shares_[at] += double(frames.changed[i] / noise);
             ++counts[at];
         }
@@ -74,14 +78,10 @@ public:
     }
 
     float at(const Compared &frames, std::size_t i) const {
-        return float(shares_[classes_.of(movement(frames, i))]) * (frames.noise[i] + frames.other_noise[i]);
+        return float(shares_[classes_.of(frames.moved[i])]) * frames.both(i);
     }
 
 private:
-    static float movement(const Compared &frames, std::size_t i) {
-        return std::log((frames.moved[i] + 1e-20f) / (frames.noise[i] + frames.other_noise[i] + 1e-20f));
-    }
-
     Classes classes_;
     std::vector<double> shares_; // sums of many pixels
 };
@@ -95,8 +95,7 @@ Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size
     Values weight(grid.size());
     parallel_ranges(grid.size(), pixels_at_once, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const float both = found.noise[i] + found.other_noise[i];
-            const float here = found.changed[i] - FinishTuning::residual_deviations * both;
+            const float here = found.changed[i] - FinishTuning::residual_deviations * found.both(i);
             const float all =
                 found.other_noise[i] + 2 * float(frames) * std::max(here, by_movement.at(found, i));
             weight[i] = all > 0 ? std::min(found.noise[i] / all, 1.0f) : 0;
@@ -105,7 +104,8 @@ Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size
     return weight;
 }
 
-void average_residuals(FrameOfLayer &frame, std::span<const FrameOfLayer> around, const Grid &grid) {
+Halves averaged_rays(const FrameOfLayer &frame, std::span<const FrameOfLayer> around, const Grid &grid) {
+    Halves averaged = frame.rays;
     std::vector<Values> weights;
     for (const FrameOfLayer &other : around) weights.push_back(weight_of(frame, other, around.size(), grid));
     parallel_ranges(grid.size(), pixels_at_once, [&](std::size_t begin, std::size_t end) {
@@ -117,10 +117,11 @@ void average_residuals(FrameOfLayer &frame, std::span<const FrameOfLayer> around
                     float sum = residual(frame, half, c, i);
                     for (std::size_t k = 0; k < around.size(); ++k)
                         sum += weights[k][i] * residual(around[k], half, c, i);
-                    frame.rays[half][c][i] = frame.gathered[c][i] + sum / all;
+                    averaged[half][c][i] = frame.gathered[c][i] + sum / all;
                 }
         }
     });
+    return averaged;
 }
 
 } // namespace sparselens

@@ -60,9 +60,9 @@ struct FinishTuning {
     static constexpr int rays_per_view = 8;
 
     // Mean square, tone-mapped (49 dB): if all rays through the lens are predicted to have less noise, one render of them
-    // is better than a finished picture. Without a denoiser, of 320 rays (predicted: 45.6, 48.3, 48.5, 62 dB) one render
-    // has 45.9, 49.7, 51.5, 73.4 dB on fence, grass, mirror, mist, and finished pictures have 49.1, 48.7, 51.7, 71.6; of
-    // 1280 (51.6, 54.3, 54.5, 68) 53.1, 57.1, 59.3, 80.8, and 51.5, 55.2, 57.4, 78.3.
+    // is better than a finished picture. Without a denoiser (lab/results/rivals.md), 320 rays on fence, grass, mirror and
+    // mist (predicted: 45.3, 47.7, 47.9, 61.7 dB) have 45.6, 49.5, 51.4, 73.2 dB in one render, finished 48.7, 48.6, 51.6,
+    // 71.5; 1280 rays (predicted: 51.3, 53.7, 53.9, 67.7) have 52.8, 56.3, 58.4, 79.7, finished 51.5, 55.2, 57.4, 78.3.
     static constexpr double noise_that_views_do_not_reach = 1.25e-5;
 
     // Radii of the soft windows in which residuals of two frames, and their gathered pictures, are compared, pixels.

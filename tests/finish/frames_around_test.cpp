@@ -12,7 +12,7 @@ namespace {
 
 const Grid grid(96, 64);
 
-// A frame whose gathered picture lacks `error` of the truth; each render has 16 rays and seeds of its own.
+// Each render has 16 rays and a seed of its own.
 FrameOfLayer frame_of(const Colours &truth, const Colours &gathered, std::uint32_t seed) {
     return {gathered, {rays_of(truth, 16, 2 * seed), rays_of(truth, 16, 2 * seed + 1)}};
 }
@@ -54,7 +54,7 @@ TEST(FramesAround, OfAStillAreMoreRays) {
     const double alone = squared_error(frame, truth);
     std::vector<FrameOfLayer> around;
     for (std::uint32_t seed = 2; seed < 6; ++seed) around.push_back(frame_of(truth, wrong, seed));
-    average_residuals(frame, around, grid);
+    frame.rays = averaged_rays(frame, around, grid);
     EXPECT_LT(squared_error(frame, truth), 0.3 * alone);
     EXPECT_GT(squared_error(frame, truth), 0.18 * alone);
 }
@@ -69,7 +69,7 @@ TEST(FramesAround, DoNotSmearWhatMoves) {
         const Colours other = moved(truth, by);
         around.push_back(frame_of(other, blurred(other, grid, 3), std::uint32_t(20 + by)));
     }
-    average_residuals(frame, around, grid);
+    frame.rays = averaged_rays(frame, around, grid);
     EXPECT_LT(squared_error(frame, truth), alone);
 }
 
@@ -116,7 +116,7 @@ TEST(FramesAround, NoneChangeNothing) {
     const Colours truth = synthetic_truth(grid);
     FrameOfLayer frame = frame_of(truth, blurred(truth, grid, 2), 1);
     const Halves before = frame.rays;
-    average_residuals(frame, {}, grid);
+    frame.rays = averaged_rays(frame, {}, grid);
     for (std::size_t h = 0; h < 2; ++h)
         for (std::size_t c = 0; c < truth.size(); ++c)
             for (std::size_t i = 0; i < grid.size(); ++i)

@@ -47,10 +47,10 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
         ->type_name("FILE")
         ->take_all()
         ->allow_extra_args(false);
-    app.add_option(
-           "--neighbours", options.neighbours,
-           "Frames before and after whose gathered pictures and renders show where errors stay the same; "
-           "those that exist are used (default: 0)")
+    app.add_option("--neighbours", options.neighbours,
+                   "Also use the renders of N frames before and N after, where the error of the gathered "
+                   "picture stays "
+                   "the same; frames without files are left out (default: 0)")
         ->type_name("N")
         ->check(CLI::Range(0, 16));
 }
