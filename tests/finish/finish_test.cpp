@@ -75,5 +75,13 @@ TEST(Finish, WhatOthersMadeIsTakenWhereItIsNearer) {
     EXPECT_GT(decibels_of(finished(layer).picture, truth), without + 3);
 }
 
+// The frames around may show something else: a frame's own rays test the candidates made of their means.
+TEST(Finish, WrongMeansWithFramesAroundCostLittle) {
+    LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 3), {40, 40});
+    const Colours other = synthetic_truth(grid, 1);
+    layer.averaged = {other, other};
+    EXPECT_GT(decibels_of(finished(layer).picture, truth), decibels_of(layer.gathered, truth) - 1);
+}
+
 } // namespace
 } // namespace sparselens
