@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -38,13 +39,17 @@ double distance(const Comparison &pictures, const BlurGuess &a, const BlurGuess 
     return std::abs(a.coc - b.coc) + std::abs(a.scale - b.scale) * (pictures.near - pictures.far) / 2;
 }
 
+// The softness of a plate, as a standard deviation in pixels.
+double deviation(const BlurGuess &guess) { return std::sqrt(std::max(guess.softness, 0.0)); }
+
 // The fits that may be right, the best first, each on a hill of its own.
 std::vector<LensFit> hills_of(const Comparison &pictures, std::vector<LensFit> fits) {
     std::ranges::stable_sort(fits, std::greater(), &LensFit::likelihood);
     std::vector<LensFit> hills;
     for (LensFit &fit : fits) {
         const auto is_near = [&](const LensFit &hill) {
-            return distance(pictures, hill.guess, fit.guess) < MatchTuning::final_reach_px;
+            return distance(pictures, hill.guess, fit.guess) < MatchTuning::final_reach_px &&
+                   std::abs(deviation(hill.guess) - deviation(fit.guess)) < MatchTuning::softness_apart;
         };
         if (std::ranges::any_of(hills, is_near)) continue;
         if (!hills.empty() && lead(hills.front(), fit) > MatchTuning::certain_lead) continue;
@@ -61,41 +66,50 @@ std::vector<LensFit> refined(const Comparison &pictures, const KnownLens &known,
     return hills_of(pictures, std::move(fits));
 }
 
-std::vector<BlurGuess> guesses_of(const std::vector<LensFit> &fits) {
+// The guesses of the best fits, at most so many.
+std::vector<BlurGuess> guesses_of(const std::vector<LensFit> &fits, int most) {
     std::vector<BlurGuess> guesses;
-    for (const LensFit &fit : fits) guesses.push_back(fit.guess);
+    for (const LensFit &fit : fits)
+        if (guesses.size() < std::size_t(most)) guesses.push_back(fit.guess);
     return guesses;
 }
 
-// The guess for pictures that are `ratio` times larger.
-BlurGuess enlarged(BlurGuess guess, double ratio) {
-    guess.coc *= ratio;
-    guess.softness *= ratio * ratio;
-    return guess;
+// The guesses for pictures that are `ratio` times larger: each with the softness that it had, and with little, since
+// small pictures hide how soft a plate is.
+std::vector<BlurGuess> enlarged(const std::vector<BlurGuess> &guesses, double ratio) {
+    std::vector<BlurGuess> result;
+    for (BlurGuess guess : guesses) {
+        guess.coc *= ratio;
+        guess.softness *= ratio * ratio;
+        result.push_back(guess);
+        guess.softness = BlurGuess{}.softness;
+        result.push_back(guess);
+    }
+    return result;
 }
 
-// The best fit of the final size, and whether another lens fits as well.
 struct Found {
     LensFit fit;
     bool is_ambiguous = false;
 };
 
-Found best_fit(const Match &match, const Reduced &fine, bool highlights) {
+Found best_fit(const Match &match, const Reduced &fine) {
     const KnownLens known = known_lens(match, fine);
     const MatchedLens *near = match.request.near;
     if (near)
         return {refine_lens(fine.pictures, known, guess_near(*near, fine), MatchTuning::next_frame_steps,
                             MatchTuning::final_reach_px)};
-    const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false,
-                        highlights);
+    const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false);
     const KnownLens known_small = known_lens(match, small);
     std::vector<BlurGuess> guesses =
         guesses_of(refined(small.pictures, known_small, search_lens(small.pictures, known_small),
-                           MatchTuning::search_steps, MatchTuning::search_reach_px));
-    for (BlurGuess &guess : guesses) guess = enlarged(guess, double(small.by()) / fine.by());
+                           MatchTuning::search_steps, MatchTuning::search_reach_px),
+                   MatchTuning::refined_guesses);
     // One step shows which of them are worth more.
     const double reach = MatchTuning::final_reach_px;
-    guesses = guesses_of(refined(fine.pictures, known, guesses, 1, reach));
+    guesses =
+        guesses_of(refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()), 1, reach),
+                   MatchTuning::final_guesses);
     std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_steps, reach);
     const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
@@ -104,15 +118,16 @@ Found best_fit(const Match &match, const Reduced &fine, bool highlights) {
     return {widened(fine.pictures, known, std::move(fits.front())), is_ambiguous};
 }
 
-struct Attempt {
-    MatchedLens lens;
-    bool has_texture = false;
-};
+} // namespace
 
-Attempt attempt(const Match &match, bool highlights) {
-    const Reduced fine(match, pieces_of(Grid(match.region).width(), MatchTuning::final_width), true,
-                       highlights);
-    const auto [fit, is_ambiguous] = best_fit(match, fine, highlights);
+MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
+                       const MatchRequest &request, Progress &progress) {
+    const Match match(in, plate, plate_name, request);
+    progress.start("matching", 2);
+    const Reduced fine(match, pieces_of(Grid(match.region).width(), MatchTuning::final_width), true);
+    progress.advance();
+    const auto [fit, is_ambiguous] = best_fit(match, fine);
+    progress.advance();
     MatchedLens result;
     set_values(result, match, fine, fit);
     set_intervals(result, stops_by_radius(match.camera));
@@ -120,20 +135,7 @@ Attempt attempt(const Match &match, bool highlights) {
     result.matched_share = evidence.matched_share();
     result.doubt = doubt_of(result, fine, fit, evidence, is_ambiguous);
     result.fit = side_by_side(brightness(fit.shown), fine.pictures.plate);
-    return {std::move(result), evidence.textured >= MatchTuning::least_textured};
-}
-
-} // namespace
-
-MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
-                       const MatchRequest &request, Progress &progress) {
-    const Match match(in, plate, plate_name, request);
-    progress.start("matching", 2);
-    Attempt found = attempt(match, false);
-    progress.advance();
-    if (!found.has_texture) found = attempt(match, true); // lamps may be all that there is
-    progress.advance();
-    return std::move(found.lens);
+    return result;
 }
 
 } // namespace sparselens

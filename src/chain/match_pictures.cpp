@@ -52,6 +52,8 @@ Match::Match(const OpenedLdi &in_, const Image &plate_, const std::string &plate
     if (!(resolve_radius(camera) > 0))
         throw UsageError("the lens of the LDI has no blur to compare: give `fstop`");
     region = common_pixels(request.region.value_or(display), display);
+    for (const std::size_t c : find_rgb(plate.channels))
+        if (c != npos) raise_clipped(plate.plane(c));
 }
 
 KnownLens known_lens(const Match &match, const Reduced &in) {
@@ -70,7 +72,7 @@ BlurGuess guess_near(const MatchedLens &near, const Reduced &in) {
     return {scale * (focus - in.pictures.middle), scale, std::pow(near.softness / in.by(), 2)};
 }
 
-Reduced::Reduced(const Match &match, int by, bool is_final, bool highlights) : name_(match.in.name), by_(by) {
+Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.name), by_(by) {
     const int factor = by * match.across;
     if (factor > 1)
         ldi_ = proxy(match.in.ldi, factor,
@@ -88,7 +90,6 @@ Reduced::Reduced(const Match &match, int by, bool is_final, bool highlights) : n
     pictures.colours = tone_mapped(colours_in(small, box_, match.plate_name));
     pictures.plate = brightness(pictures.colours);
     find_usable();
-    if (!highlights) leave_out_highlights(match);
     find_depths();
     pictures.gather = [this](double coc, double scale, bool exactly) {
         return gather(shape(), coc, scale, exactly);
@@ -128,25 +129,6 @@ void Reduced::find_usable() {
         const bool covered = alpha == npos || flat.at(alpha, at.x, at.y) >= opaque;
         pictures.usable.push_back(covered && std::isfinite(pictures.plate.values[i]) ? 1 : 0);
     }
-}
-
-void Reduced::leave_out_highlights(const Match &match) {
-    const Imath::Box2i region = common_pixels(match.region, match.plate.windows.data);
-    const Colours plate = colours_in(match.plate, region, match.plate_name);
-    const std::vector<std::uint8_t> clipped = clipped_pixels(plate);
-    const Grid grid(box_);
-    std::vector<std::uint8_t> left = pictures.usable;
-    const int reach = (MatchTuning::beside_clipped + by_ - 1) / by_;
-    for (std::size_t i = 0; i < clipped.size(); ++i) {
-        if (!clipped[i]) continue;
-        const Imath::V2i at = plate.grid.pixel(i), beside(reach, reach);
-        const Imath::V2i middle = reduced(Imath::Box2i(at, at), by_).min;
-        const Imath::Box2i around(middle - beside, middle + beside);
-        for (int y = around.min.y; y <= around.max.y; ++y)
-            for (int x = around.min.x; x <= around.max.x; ++x)
-                if (box_.intersects(Imath::V2i(x, y))) left[grid.index(x, y)] = 0;
-    }
-    if (std::ranges::any_of(left, [](auto pixel) { return pixel != 0; })) pictures.usable = std::move(left);
 }
 
 void Reduced::find_depths() {

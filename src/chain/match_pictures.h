@@ -16,7 +16,7 @@ struct Match {
           const MatchRequest &request);
 
     const OpenedLdi &in;
-    const Image &plate;
+    Image plate; // its clipped highlights are raised
     const std::string &plate_name;
     const MatchRequest &request;
     Camera camera;
@@ -27,8 +27,7 @@ struct Match {
 // Both pictures, `by` times smaller than the plate. Throws UsageError if they share no pixel of the region.
 class Reduced {
 public:
-    // Without `highlights`, pixels beside clipped ones of the plate are not compared.
-    Reduced(const Match &match, int by, bool is_final, bool highlights);
+    Reduced(const Match &match, int by, bool is_final);
     Reduced(const Reduced &) = delete; // `pictures` gathers from this
     Reduced &operator=(const Reduced &) = delete;
 
@@ -45,7 +44,6 @@ private:
     void choose_gathers(const Match &match, bool is_final);
     ThinLens lens(double focus, double scale) const; // `focus`: its perceptive depth
     void find_usable();
-    void leave_out_highlights(const Match &match);
     void find_depths();
 
     std::string name_; // of the LDI, for messages

@@ -14,7 +14,7 @@ std::optional<MatchedShape> match_shape(const OpenedLdi &in, const Image &plate,
     const MatchedLens round = match_lens(in, plate, plate_name, request, progress);
     if (round.largest_coc < MatchTuning::least_shape_px) return {};
     const Match match(in, plate, plate_name, request);
-    const Reduced pictures(match, std::max(int(round.largest_coc / MatchTuning::shape_px), 1), true, true);
+    const Reduced pictures(match, std::max(int(round.largest_coc / MatchTuning::shape_px), 1), true);
     const ShapedGather gather = [&](const ApertureShape &shape, double coc, double scale, bool exactly) {
         return pictures.gather(shape, coc, scale, exactly);
     };

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <vector>
 
 namespace sparselens {
 
 namespace {
 
 // The value from which pixels count as clipped; infinite: none is.
-float clipped_from(const std::vector<float> &plane) {
+float clipped_from(std::span<const float> plane) {
     std::vector<float> values;
     std::ranges::copy_if(plane, std::back_inserter(values), [](float v) { return std::isfinite(v); });
     constexpr float none = std::numeric_limits<float>::infinity();
@@ -28,14 +29,10 @@ float clipped_from(const std::vector<float> &plane) {
 
 } // namespace
 
-std::vector<std::uint8_t> clipped_pixels(const Colours &plate) {
-    std::vector<std::uint8_t> result(plate.grid.size());
-    for (const std::vector<float> &plane : plate.rgb) {
-        const float from = clipped_from(plane);
-        for (std::size_t i = 0; i < plane.size(); ++i)
-            if (plane[i] >= from) result[i] = 1;
-    }
-    return result;
+void raise_clipped(std::span<float> plane) {
+    const float from = clipped_from(plane);
+    for (float &value : plane)
+        if (value >= from) value *= MatchTuning::clipped_factor;
 }
 
 } // namespace sparselens

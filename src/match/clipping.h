@@ -1,15 +1,13 @@
-// The highlights that a plate clips, because a sensor and a file have a largest value. Their discs say little about the
-// lens: a bright lamp fills each pixel that its edge touches.
+// The highlights that a plate clips, because a sensor and a file have a largest value. How bright they were is unknown,
+// but a pixel of a reduced plate that a bright lamp covers in part must be nearly as bright as the lamp, as it is in a
+// gathered picture. Otherwise discs look smaller, and so does the lens.
 #pragma once
 
-#include "match/colours.h"
-
-#include <cstdint>
-#include <vector>
+#include <span>
 
 namespace sparselens {
 
-// [pixel], 1: a channel of the plate is clipped.
-std::vector<std::uint8_t> clipped_pixels(const Colours &plate);
+// Makes the clipped values of one channel of a plate brighter. Other values stay.
+void raise_clipped(std::span<float> plane);
 
 } // namespace sparselens

@@ -40,8 +40,9 @@ public:
             Likely better = best;
             slopes = slopes_at(best, reach, better);
             keep_better(better, along(best, step_of(blocks_at(best, slopes))));
+            const double length = distance(before, better.guess);
+            if (length > 0) keep_better(better, along(better, change(before, better.guess)));
             best = std::move(better);
-            const double length = distance(before, best.guess);
             if (reach <= MatchTuning::settled_px && length < MatchTuning::gather_coc_px) break;
             if (length < MatchTuning::same_reach * reach)
                 reach = std::max(reach / 2, MatchTuning::settled_px);
@@ -89,6 +90,15 @@ private:
             if (worse >= 1) break;
         }
         return variance;
+    }
+
+    // How one guess becomes another.
+    Changes change(const BlurGuess &from, const BlurGuess &to) const {
+        Changes by{};
+        by[coc_change] = to.coc - from.coc;
+        by[ends_change] = half_range(pictures_) * (to.scale - from.scale);
+        by[softness_change] = to.softness - from.softness;
+        return by;
     }
 
     static void keep_better(Likely &best, const Likely &other) {

@@ -24,8 +24,9 @@ struct MatchTuning {
     // A plate clips its highlights if most of its bright pixels, relative to the largest value, are among the brightest.
     // Clipped lamps with grain of 0.03 have 66 % there, other pictures 10 to 20 %.
     static constexpr double bright = 0.95, brightest = 0.99, clipped_share = 0.4;
-    // Pixels this near to clipped ones are not compared, in pixels of the plate.
-    static constexpr int beside_clipped = 4;
+    // How many times brighter than white clipped highlights count. With 1, three plates of scales and macro had a radius
+    // that was 2 to 10 % too small, with 4 and 64 at most 2 %; with 16, a plate of white squares was off by .1 stops.
+    static constexpr float clipped_factor = 4;
 
     // A block shows something if a fit, in some place, explains this share of its variance.
     static constexpr double explained = 0.3;
@@ -78,8 +79,12 @@ struct MatchTuning {
     // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit of a first frame has
     // final quality, that of a next frame normal quality, whose noise passes for softness: the lens is 2 % smaller.
     static constexpr int search_points = 32, refine_points = 64;
-    // How many of the best guesses are refined, and how often at most.
-    static constexpr int refined_guesses = 3, search_steps = 8, final_steps = 8, next_frame_steps = 2;
+    // How many of the best guesses of the search are refined, how many of these at the final size, and how often at
+    // most.
+    static constexpr int refined_guesses = 6, final_guesses = 4, search_steps = 8, final_steps = 8,
+                         next_frame_steps = 2;
+    // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
+    static constexpr double softness_apart = 0.5;
     // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This
     // reach halves after a step that is shorter than a share of it, down to `settled_px`; there a step shorter than
     // `gather_coc_px` ends the fit. The longest step, and the longest multiple of a step: on plates of scales and macro

@@ -18,10 +18,28 @@ Colours lamps(double brightness) {
     });
 }
 
-TEST(Clipping, finds_the_lamps_that_a_plate_clips) {
-    const Colours plate = lamps(1);
-    const std::vector<std::uint8_t> clipped = clipped_pixels(plate);
-    for (std::size_t i = 0; i < clipped.size(); ++i) ASSERT_EQ(clipped[i] != 0, plate.rgb[0][i] == 1) << i;
+Colours raised(Colours plate) {
+    for (std::vector<float> &plane : plate.rgb) raise_clipped(plane);
+    return plate;
+}
+
+TEST(Clipping, raises_the_lamps_that_a_plate_clips_and_nothing_else) {
+    const Colours plate = lamps(1), result = raised(plate);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < plate.grid.size(); ++i) {
+            if (plate.rgb[k][i] == 1)
+                ASSERT_GT(result.rgb[k][i], 2) << i;
+            else
+                ASSERT_EQ(result.rgb[k][i], plate.rgb[k][i]) << i;
+        }
+}
+
+TEST(Clipping, only_clipped_channels_are_raised) {
+    Colours plate = lamps(1);
+    plate.rgb[2] = test::colours(96, 64, [](double x, double, std::size_t) { return 0.005 * x; }).rgb[2];
+    const Colours result = raised(plate);
+    EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
+    EXPECT_EQ(result.rgb[2], plate.rgb[2]);
 }
 
 TEST(Clipping, grain_does_not_hide_it) {
@@ -32,21 +50,20 @@ TEST(Clipping, grain_does_not_hide_it) {
             state = state * 1664525u + 1013904223u;
             v = std::min(v + 0.06f * (float(state >> 8) / float(1 << 24) - 0.5f), 1.0f);
         }
-    const std::vector<std::uint8_t> clipped = clipped_pixels(plate);
-    EXPECT_EQ(clipped[plate.grid.index(50, 30)], 1);
-    EXPECT_EQ(clipped[plate.grid.index(35, 30)], 0);
+    const Colours result = raised(plate);
+    EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
+    EXPECT_LT(result.rgb[0][plate.grid.index(35, 30)], 1);
 }
 
 TEST(Clipping, a_picture_that_fades_to_its_largest_value_has_none) {
-    const std::vector<std::uint8_t> clipped = clipped_pixels(
-        test::colours(96, 64, [](double x, double y, std::size_t) { return 0.1 + 0.005 * x + 0.004 * y; }));
-    EXPECT_EQ(std::ranges::count(clipped, 1), 0);
+    const Colours plate =
+        test::colours(96, 64, [](double x, double y, std::size_t) { return 0.1 + 0.005 * x + 0.004 * y; });
+    EXPECT_EQ(raised(plate).rgb, plate.rgb);
 }
 
 TEST(Clipping, a_black_plate_has_none) {
-    const std::vector<std::uint8_t> clipped =
-        clipped_pixels(test::colours(32, 32, [](double, double, std::size_t) { return 0.0; }));
-    EXPECT_EQ(std::ranges::count(clipped, 1), 0);
+    const Colours plate = test::colours(32, 32, [](double, double, std::size_t) { return 0.0; });
+    EXPECT_EQ(raised(plate).rgb, plate.rgb);
 }
 
 } // namespace
