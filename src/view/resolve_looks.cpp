@@ -53,7 +53,7 @@ LensLooks resolve_looks(const LookValues &values, const Camera &camera, const Th
     shape.curvature = values.curvature.value_or(shape.curvature);
     shape.rotation = values.rotation.value_or(shape.rotation);
     shape.squeeze = values.squeeze.value_or(shape.squeeze);
-    shape.spherical = values.spherical.value_or(shape.spherical);
+    shape.spherical = values.spherical.value_or(0);
     shape.picture = values.picture;
     looks.cat_eye = values.cat_eye.value_or(0);
     looks.cat_eye_darkening = values.cat_eye_darkening.value_or(false);
