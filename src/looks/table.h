@@ -9,13 +9,14 @@
 #include "cat_eye.h"
 #include "field_curvature.h"
 #include "spherical.h"
+#include "spherochromatism.h"
 #include "squeeze.h"
 #include "tilt.h"
 
 namespace sparselens {
 
-using AllLooks =
-    LookTable<looks::Blades, looks::Squeeze, looks::Spherical, looks::CatEye, looks::AxialChromatic,
-              looks::FieldCurvature, looks::Astigmatism, looks::Tilt, looks::Breathing>;
+using AllLooks = LookTable<looks::Blades, looks::Squeeze, looks::Spherical, looks::Spherochromatism,
+                           looks::CatEye, looks::AxialChromatic, looks::FieldCurvature, looks::Astigmatism,
+                           looks::Tilt, looks::Breathing>;
 
 } // namespace sparselens
