@@ -15,6 +15,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
 install(DIRECTORY share/ocio share/blender share/nuke share/lenses share/openjd share/slurm share/opencue share/python
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
+install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens/blender/sparselens_blender)
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}) # headers cite design.md
 install(DIRECTORY share/images share/blender share/lenses share/openjd share/slurm share/opencue

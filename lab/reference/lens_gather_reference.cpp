@@ -49,7 +49,8 @@ long double weight_of(const LensSample &point, Kind kind, const Met &met) {
     const long double weight = is_colour(kind) ? (long double)point.rgb[std::size_t(kind)] : 1;
     if (kind == Kind::data) return weight;
     const bool in_front = met.sample->shows().coc < 0 && !met.sample->background;
-    return weight * (long double)(in_front ? point.in_front : point.behind);
+    return weight *
+           (long double)(in_front ? point.in_front : point.behind)[is_colour(kind) ? std::size_t(kind) : 1];
 }
 
 template <typename Light>

@@ -86,7 +86,7 @@ private:
             const auto factor = float(highlight_factor(settings_.highlights, rgb, double(c.a)));
             c.r *= factor, c.g *= factor, c.b *= factor;
         }
-        if (settings_.looks.aperture.spherical == 0) return;
+        if (!rays_.two_sided()) return;
         for (std::size_t i = 0; i < n; ++i) batch.depth[i] = visible_depth(tracer_, batch.rays[i]);
     }
 
@@ -95,8 +95,8 @@ private:
         for (std::size_t i = 0; i < n; ++i) {
             const LensPoint &point = batch.points[i];
             double weight = channel < 3 ? double(point.rgb[channel]) : 1;
-            if (settings_.looks.aperture.spherical != 0)
-                weight *= double(1 / batch.depth[i] < batch.inverse_focus[i] ? point.behind : point.in_front);
+            if (rays_.two_sided()) // coverage counts like green
+                weight *= point.side(1 / batch.depth[i] < batch.inverse_focus[i], channel < 3 ? channel : 1);
             if (batch.passes[i]) sums.light[channel] += weight * of(batch.radiance[i], channel);
             if (channel < 3 && darkens)
                 sums.weight[channel] += 1; // mean over the whole lens: dark where the cat-eye cuts it off

@@ -21,6 +21,7 @@ public:
         return !cat_eye_.cuts() || cat_eye_.passes(point.u, p);
     }
     bool darkens() const { return cat_eye_.darkens(); }
+    bool two_sided() const { return aperture_.two_sided(); }
     bool one_ray() const { return looks_.chromatic_coc == std::array<double, 3>{0, 0, 0}; } // for all colours
 
     // The inverse of the focus distance at p for R, G or B (0, 1 or 2); 0 or less is at infinity or beyond.

@@ -1,39 +1,15 @@
 #include "chain/parameter_rows.h"
 
-#include <algorithm>
-#include <array>
-
 namespace sparselens {
 
 using namespace parameter_rows;
 
 namespace {
 
-struct NamedControl {
-    std::string_view name;
-    PageControl control;
-};
-constexpr std::array look_controls{NamedControl{"blades", {"blades", 0, 16, 0, 3}},
-                                   NamedControl{"blade-curvature", {"blade roundness", 0, 1}},
-                                   NamedControl{"blade-rotation", {"blade rotation, \u00b0", -180, 180}},
-                                   NamedControl{"squeeze", {"anamorphic squeeze", 0.001, 4, 1}},
-                                   NamedControl{"spherical", {"soap bubbles", -1, 1}},
-                                   NamedControl{"cat-eye", {"cat's eye", 0, 3}},
-                                   NamedControl{"axial-chromatic", {"colour fringes, mm", -5, 5}},
-                                   NamedControl{"field-curvature", {"curved focus", -1, 1}},
-                                   NamedControl{"astigmatism", {"astigmatism", -1, 1}},
-                                   NamedControl{"breathing", {"focus breathing", 0, 2}},
-                                   NamedControl{"highlight-gain", {"brighter lights", 1, 50, 1}},
-                                   NamedControl{"highlight-threshold", {"lights: above", 0, 20, 1}},
-                                   NamedControl{"highlight-knee", {"lights: softness", 0.001, 20, 1}}};
-
 Rows<GivenLooks> numbers_of(std::span<const LookNumber> table) {
     Rows<GivenLooks> rows;
-    for (const LookNumber &of : table) {
-        const auto found = std::ranges::find(look_controls, of.name, &NamedControl::name);
-        const PageControl control = found == look_controls.end() ? PageControl{} : found->control;
-        rows.push_back({on_page(number(of), control), in(&GivenLooks::values, of.value)});
-    }
+    for (const LookNumber &of : table)
+        rows.push_back({on_page(number(of), of.control), in(&GivenLooks::values, of.value)});
     return rows;
 }
 

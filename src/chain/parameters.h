@@ -1,8 +1,9 @@
 // The parameters of a picture: one table from which come the options of the tools, the keywords of Python, the controls
 // of dof-view's page, and which values can be keyed by frame. It includes the numbers of the lens and of its looks from
-// their own tables (view/resolve_lens.h, view/look_values.h).
+// their own tables (view/resolve_lens.h, looks/table.h).
 #pragma once
 
+#include "../looks/number_parameter.h"
 #include "take_picture.h"
 
 #include <functional>
@@ -27,14 +28,6 @@ enum class ParameterForm {
     pair,   // two finite numbers
     pixel,  // two whole numbers, EXR coordinates
     box,    // four whole numbers: left, top, right, bottom, the last ones included
-};
-
-// A control among the looks on a page.
-struct PageControl {
-    const char *label = "";   // as photographers say; empty: no control
-    double low = 0, high = 0; // the ends of a number's slider
-    double usual = 0;         // the number if none is given
-    int whole_from = 0;       // if not 0, the slider has `low`, and whole numbers from this one on
 };
 
 // The function of the Python module that takes a parameter.

@@ -65,7 +65,7 @@ std::shared_ptr<const AperturePicture> read_aperture_picture(const std::string &
     const auto picture =
         std::make_shared<const AperturePicture>(means_of_squares(image, weight_channels(image, path), path));
     try {
-        const PictureTable check(*picture, [](const Imath::V2d &) { return 1.0; });
+        const PictureTable check(*picture, [](const Imath::V2d &, std::size_t) { return 1.0; });
     } catch (const Error &error) {
         throw Error(path + ": " + error.what());
     }

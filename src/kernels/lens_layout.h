@@ -33,10 +33,12 @@ static_assert(sizeof(Block) == 32 && offsetof(Block, coc_max) == 28);
 
 struct Lens {
     float x, y, pixel_x, pixel_y, weight;
-    float red, green, blue, behind, in_front; // factors on the weight
-    float weight_before;                      // sum of the weights of the tile's lens points before it
+    // Factors on the weight, for R, G and B: of the lens point, and for light from behind focus and in front.
+    float red, green, blue;
+    float red_behind, green_behind, blue_behind, red_in_front, green_in_front, blue_in_front;
+    float weight_before; // sum of the weights of the tile's lens points before it
 };
-static_assert(sizeof(Lens) == 44 && offsetof(Lens, weight_before) == 40);
+static_assert(sizeof(Lens) == 60 && offsetof(Lens, weight_before) == 56);
 
 struct Tile {
     float x, y;                        // of its first pixel

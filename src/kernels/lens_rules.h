@@ -89,10 +89,13 @@ inline float left_behind(float transmittance, float left) {
 // Kinds of channels for a lens that treats colours differently; one bit each.
 inline constexpr uint is_red = 1, is_green = 2, is_blue = 4, is_coverage = 8, is_data = 16;
 
-// The weight of a lens point for a channel. `side`: the factor on light from behind focus, or from in front of it. Data
-// has no colour and is the same for all light.
-inline float light_weight(uint set, float weight, float red, float green, float blue, float side) {
-    const float colour = set == is_red ? red : set == is_green ? green : set == is_blue ? blue : 1;
+// Picks the number that belongs to a channel; `others` belongs to coverage and data.
+inline float of_colour(uint set, float red, float green, float blue, float others) {
+    return set == is_red ? red : set == is_green ? green : set == is_blue ? blue : others;
+}
+// The weight of a lens point for a channel. `colour`: the factor of its colour. `side`: its factor on light from behind
+// focus, or from in front of it. Data has no colour and is the same for all light.
+inline float light_weight(uint set, float weight, float colour, float side) {
     return weight * colour * (set == is_data ? 1 : side);
 }
 // With a cat-eye that darkens, colours are averaged over lens points, not over their weights.

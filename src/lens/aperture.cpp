@@ -30,19 +30,22 @@ std::vector<double> fan_areas(std::span<const Imath::V2d> outline) {
 
 Aperture::Aperture(const ApertureShape &shape) : shape_(shape) {
     if (shape.picture) {
-        picture_.emplace(*shape.picture, [](const Imath::V2d &) { return 1.0; });
+        picture_.emplace(*shape.picture, [](const Imath::V2d &, std::size_t) { return 1.0; });
         if (!two_sided()) return;
         for (const bool behind : {true, false})
-            (behind ? behind_ : in_front_).emplace(*shape.picture, [&](const Imath::V2d &p) {
-                return signed_weight(behind, p.dot(p));
-            });
+            (behind ? behind_ : in_front_)
+                .emplace(*shape.picture, [&](const Imath::V2d &p, std::size_t colour) {
+                    return signed_weight(behind, p.dot(p), colour);
+                });
         const double n = 512;
-        mean_behind_ = mean_in_front_ = 0;
+        mean_behind_ = mean_in_front_ = {0, 0, 0};
         for (double i = 0.5; i < n; ++i)
             for (double j = 0.5; j < n; ++j) {
                 const Imath::V2d p = picture_->place(i / n, j / n);
-                mean_behind_ += signed_weight(true, p.dot(p)) / (n * n);
-                mean_in_front_ += signed_weight(false, p.dot(p)) / (n * n);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    mean_behind_[k] += signed_weight(true, p.dot(p), k) / (n * n);
+                    mean_in_front_[k] += signed_weight(false, p.dot(p), k) / (n * n);
+                }
             }
         return;
     }
@@ -53,8 +56,10 @@ Aperture::Aperture(const ApertureShape &shape) : shape_(shape) {
         coc *= 4;
     }
     const double mean_square = round() ? 0.5 : mean_square_radius(outlines_.back());
-    mean_behind_ = signed_weight(true, mean_square);
-    mean_in_front_ = signed_weight(false, mean_square);
+    for (std::size_t k = 0; k < 3; ++k) {
+        mean_behind_[k] = signed_weight(true, mean_square, k);
+        mean_in_front_[k] = signed_weight(false, mean_square, k);
+    }
     if (round()) return;
     fan_ = aperture_outline(shape, 1e-6);
     fan_areas_ = fan_areas(fan_);
@@ -65,12 +70,19 @@ Imath::V2d Aperture::half_extent() const {
     return {1 / shape_.squeeze, 1};
 }
 
-double Aperture::signed_weight(bool behind, double square_radius) const {
-    return std::max(0.0, 1 + (behind ? 1 : -1) * shape_.spherical * (2 * square_radius - 1));
+double Aperture::signed_weight(bool behind, double square_radius, std::size_t colour) const {
+    const double spherical = std::clamp(shape_.spherical[colour], -1.0, 1.0);
+    return std::max(0.0, 1 + (behind ? 1 : -1) * spherical * (2 * square_radius - 1));
 }
 
-double Aperture::weight(bool behind, double square_radius) const {
-    return signed_weight(behind, square_radius) / (behind ? mean_behind_ : mean_in_front_);
+double Aperture::weight(bool behind, double square_radius, std::size_t colour) const {
+    return signed_weight(behind, square_radius, colour) / (behind ? mean_behind_ : mean_in_front_)[colour];
+}
+
+ColourFactors Aperture::factors(bool behind, double square_radius) const {
+    ColourFactors factors;
+    for (std::size_t k = 0; k < 3; ++k) factors[k] = float(weight(behind, square_radius, k));
+    return factors;
 }
 
 Imath::V2d Aperture::place(const Imath::V2d &square) const {
@@ -90,13 +102,13 @@ Imath::V2d Aperture::place(const Imath::V2d &square) const {
 LensPoint Aperture::at(const Imath::V2d &square) const {
     const Imath::V2d p = place(square);
     LensPoint point{{p.x / shape_.squeeze, p.y}};
-    if (coloured()) {
+    if (picture_ && picture_->coloured()) {
         const std::array<double, 3> colour = picture_->colour(p);
         for (std::size_t k = 0; k < 3; ++k) point.rgb[k] = float(colour[k]);
     }
     if (two_sided()) {
-        point.behind = float(weight(true, p.dot(p)));
-        point.in_front = float(weight(false, p.dot(p)));
+        point.behind = factors(true, p.dot(p));
+        point.in_front = factors(false, p.dot(p));
     }
     return point;
 }

@@ -13,12 +13,19 @@
 
 namespace sparselens {
 
+// Factors on the light of R, G and B; coverage has that of G.
+using ColourFactors = std::array<float, 3>;
+inline constexpr ColourFactors no_factors{1, 1, 1};
+
 // A point of the lens. Its light is weighted by rgb, times `behind` or `in_front` depending on where the light comes
-// from; the mean of each weight over the lens is 1.
+// from; the mean of each weight over the lens is 1. Coverage has no weight by rgb.
 struct LensPoint {
     Imath::V2d u;
-    std::array<float, 3> rgb{1, 1, 1};
-    float behind = 1, in_front = 1;
+    ColourFactors rgb = no_factors, behind = no_factors, in_front = no_factors;
+
+    double side(bool is_behind, std::size_t colour) const {
+        return double((is_behind ? behind : in_front)[colour]);
+    }
 };
 
 class Aperture {
@@ -27,12 +34,11 @@ public:
     explicit Aperture(const ApertureShape &shape = {});
 
     const ApertureShape &shape() const { return shape_; }
-    bool disc() const {
-        return !picture_ && shape_.spherical == 0 && round();
-    } // evenly bright, possibly squeezed
-    bool coloured() const { return picture_ && picture_->coloured(); }
-    bool two_sided() const { return shape_.spherical != 0; } // differs behind focus and in front
-    Imath::V2d half_extent() const;                          // the largest |u.x| and |u.y|
+    bool disc() const { return !picture_ && !two_sided() && round(); } // evenly bright, possibly squeezed
+    bool coloured() const { return coloured_rims() || (picture_ && picture_->coloured()); }
+    bool coloured_rims() const { return !shape_.spherical.even(); }
+    bool two_sided() const { return shape_.spherical != ByColour(0); } // differs behind focus and in front
+    Imath::V2d half_extent() const;                                    // the largest |u.x| and |u.y|
 
     // The lens point for a point of the unit square. Equal areas of the square pass equal light (the mean of R, G and
     // B, without the weights by side). x is the share of the light within a radius, y the share of a turn; for a
@@ -46,12 +52,14 @@ public:
     // The table of an aperture picture, for light from behind focus or in front; null for other apertures.
     const PictureTable *picture(bool behind) const;
 
-    // The weight of light that comes from behind or in front, at a radius; the mean over the lens is 1.
-    double weight(bool behind, double square_radius) const;
+    // The weight of a colour's light that comes from behind or in front, at a radius; the mean over the lens is 1. It is
+    // linear in the square of the radius.
+    double weight(bool behind, double square_radius, std::size_t colour = 1) const;
 
 private:
     bool round() const { return shape_.blades == 0 || shape_.curvature == 1; }
-    double signed_weight(bool behind, double square_radius) const;
+    double signed_weight(bool behind, double square_radius, std::size_t colour) const;
+    ColourFactors factors(bool behind, double square_radius) const;
     Imath::V2d place(const Imath::V2d &square) const;
 
     ApertureShape shape_;
@@ -60,7 +68,7 @@ private:
     std::array<std::vector<Imath::V2d>, levels> outlines_;
     std::vector<Imath::V2d> fan_;   // an outline, for points
     std::vector<double> fan_areas_; // of its triangles with the middle, summed up; the last is 1
-    double mean_behind_ = 1, mean_in_front_ = 1;
+    std::array<double, 3> mean_behind_{1, 1, 1}, mean_in_front_{1, 1, 1};
 };
 
 } // namespace sparselens

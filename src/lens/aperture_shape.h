@@ -12,6 +12,8 @@
 // degrees have a side on top; the drawing is turned by 60.)
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -24,13 +26,25 @@ struct AperturePicture {
     std::vector<float> rgb;
 };
 
+// A number for R, G and B, the same unless said.
+struct ByColour {
+    std::array<double, 3> of{0, 0, 0};
+
+    constexpr ByColour(double all = 0) : of{all, all, all} {}
+    constexpr ByColour(double r, double g, double b) : of{r, g, b} {}
+    double operator[](std::size_t colour) const { return of[colour]; }
+    double &operator[](std::size_t colour) { return of[colour]; }
+    bool even() const { return of[0] == of[1] && of[1] == of[2]; }
+    bool operator==(const ByColour &) const = default;
+};
+
 struct ApertureShape {
     int blades = 0;       // 0: round; otherwise a regular polygon of 3..16 corners
     double curvature = 0; // of its sides, [0, 1]: their height over the chord; 1 gives the circle
     double rotation = 0;  // degrees
     double squeeze = 1;   // (0, inf): how many times higher than wide; the height is the circle's
-    double spherical =
-        0; // [-1, 1]: weight 1 + spherical (2 r^2 - 1) behind focus, minus it in front; r before squeezing
+    // Weight 1 + S (2 r^2 - 1) behind focus and 1 - S (2 r^2 - 1) in front, r before squeezing, with S limited to [-1, 1].
+    ByColour spherical = 0;
     std::shared_ptr<const AperturePicture> picture = {}; // replaces the blades if set
 
     bool operator==(const ApertureShape &) const = default;

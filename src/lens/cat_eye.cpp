@@ -44,14 +44,15 @@ CatEye::Columns CatEye::columns(const LensSample &point, int first, int count, i
     return {bound(std::ceil(left)), bound(std::floor(right) + 1)};
 }
 
-double CatEye::share(Light light, const Imath::V2d &p) const { return share_of(light, centre(p)); }
+double CatEye::share(Light light, const Imath::V2d &p, std::size_t colour) const {
+    return share_of(light, colour, centre(p));
+}
 
-double CatEye::share_of(Light light, const Imath::V2d &middle) const {
+double CatEye::share_of(Light light, std::size_t colour, const Imath::V2d &middle) const {
     if (!points_.empty()) {
         double all = 0, left = 0;
         for (const LensPoint &point : points_) {
-            const double weight =
-                light == Light::evenly ? 1 : double(light == Light::behind ? point.behind : point.in_front);
+            const double weight = light == Light::evenly ? 1 : point.side(light == Light::behind, colour);
             all += weight;
             left += within(point.u, middle) ? weight : 0;
         }
@@ -61,8 +62,9 @@ double CatEye::share_of(Light light, const Imath::V2d &middle) const {
     const double area = left.empty() ? 0 : signed_area(left);
     if (area <= 0) return 0;
     // The weight is linear in r^2.
-    const double weight =
-        light == Light::evenly ? 1 : aperture_.weight(light == Light::behind, mean_square_radius(left));
+    const double weight = light == Light::evenly
+                              ? 1
+                              : aperture_.weight(light == Light::behind, mean_square_radius(left), colour);
     return std::min(1.0, area / signed_area(outline_) * weight);
 }
 
@@ -79,13 +81,15 @@ double CatEye::share_from(const std::vector<double> &table, const Imath::V2d &mi
     return std::lerp(row(int(angle)), row(int(angle) + 1), angle - std::floor(angle));
 }
 
-std::vector<double> CatEye::shares(Light light, const Imath::Box2i &box) const {
-    std::vector<double> &table = tables_[std::size_t(light)];
-    std::call_once(made_[std::size_t(light)], [&] {
+std::vector<double> CatEye::shares(Light light, const Imath::Box2i &box, std::size_t colour) const {
+    const std::size_t of = colour * 3 + std::size_t(light);
+    std::vector<double> &table = tables_[of];
+    std::call_once(made_[of], [&] {
         for (int a = 0; a < angles; ++a)
             for (int r = 0; r < radii; ++r) {
                 const double angle = 2 * std::numbers::pi * a / angles, radius = reach_ * r / (radii - 1);
-                table.push_back(share_of(light, radius * Imath::V2d(std::cos(angle), std::sin(angle))));
+                table.push_back(
+                    share_of(light, colour, radius * Imath::V2d(std::cos(angle), std::sin(angle))));
             }
     });
     std::vector<double> all;

@@ -33,12 +33,12 @@ public:
     // to `first`.
     Columns columns(const LensSample &point, int first, int count, int y) const;
 
-    // The share of the light that is left at a pixel, [0, 1]: of light from behind focus or in front, or without these
-    // weights.
+    // The share of a colour's light that is left at a pixel, [0, 1]: of light from behind focus or in front, or without
+    // these weights.
     enum class Light { behind, in_front, evenly };
-    double share(Light light, const Imath::V2d &p) const;
+    double share(Light light, const Imath::V2d &p, std::size_t colour = 1) const;
     // The same for the pixels of a box, [row][column], to 2e-3, from a table that is made on first use.
-    std::vector<double> shares(Light light, const Imath::Box2i &box) const;
+    std::vector<double> shares(Light light, const Imath::Box2i &box, std::size_t colour = 1) const;
 
     // How far the circle's middle moves for each pixel by which a lamp's light is displaced.
     double shift_per_pixel() const { return amount_ / frame_.half_diagonal; }
@@ -52,14 +52,15 @@ private:
     double amount_;
     bool darkens_;
     PictureFrame frame_;
-    double share_of(Light light, const Imath::V2d &centre) const;
+    double share_of(Light light, std::size_t colour, const Imath::V2d &centre) const;
     double share_from(const std::vector<double> &table, const Imath::V2d &centre) const;
 
     std::vector<LensPoint> points_;   // for a picture: points are counted
     std::vector<Imath::V2d> outline_; // for other apertures: areas are computed
     double reach_ = 0;                // if its middle is this far away, the circle leaves nothing
-    mutable std::array<std::once_flag, 3> made_;
-    mutable std::array<std::vector<double>, 3> tables_; // [light][angle][radius] of the circle's middle
+    mutable std::array<std::once_flag, 9> made_;
+    mutable std::array<std::vector<double>, 9>
+        tables_; // [colour][light][angle][radius] of the circle's middle
 };
 
 } // namespace sparselens

@@ -52,12 +52,24 @@ void spread_outline(const Aperture &aperture, const Lamp &lamp, const LampCut *c
     const Imath::V2d scale = scale_of(aperture, lamp);
     const double widest = std::max(std::abs(scale.x), std::abs(scale.y));
     Points outline = aperture.outline(widest);
-    const double area = std::abs(signed_area(outline) * scale.x * scale.y),
-                 at_middle = aperture.weight(lamp.coc > 0, 0), at_rim = aperture.weight(lamp.coc > 0, 1);
+    const double area = std::abs(signed_area(outline) * scale.x * scale.y);
     if (cut) outline = cut_outline(std::move(outline), *cut, widest);
-    const RadialDensity density{
-        at_middle / area, (at_rim - at_middle) / area, lamp.centre, {1 / scale.x, 1 / scale.y}};
-    integrate_over_pixels(in_pixels(std::move(outline), aperture, lamp), density, spread.box, spread.weights);
+    const Points places = in_pixels(std::move(outline), aperture, lamp);
+    const auto spread_colour = [&](std::size_t colour, std::vector<double> &weights) {
+        const double at_middle = aperture.weight(lamp.coc > 0, 0, colour),
+                     at_rim = aperture.weight(lamp.coc > 0, 1, colour);
+        const RadialDensity density{
+            at_middle / area, (at_rim - at_middle) / area, lamp.centre, {1 / scale.x, 1 / scale.y}};
+        integrate_over_pixels(places, density, spread.box, weights);
+    };
+    spread_colour(1, spread.weights);
+    spread.coloured = aperture.coloured_rims();
+    if (!spread.coloured) return;
+    std::vector<double> red, blue;
+    spread_colour(0, red);
+    spread_colour(2, blue);
+    for (std::size_t i = 0; i < spread.weights.size(); ++i)
+        spread.colours.push_back({red[i], spread.weights[i], blue[i]});
 }
 
 void spread_picture(const Aperture &aperture, const PictureTable &picture, const Lamp &lamp,

@@ -24,7 +24,7 @@ struct LampSpread {
     Imath::Box2i box; // empty: none
     bool coloured = false;
     std::vector<double> weights; // [row][column]
-    // the weights of R, G and B, if coloured; `weights` is then their mean
+    // the weights of R, G and B, if coloured; `weights` are then those of coverage
     std::vector<std::array<double, 3>> colours;
 };
 

@@ -19,8 +19,7 @@ struct LensSample {
     float pixel_x, pixel_y; // position in the pixel, [-1/2, 1/2); everything seen is moved by it
     float weight;           // > 0
     // Factors on the weight for R, G and B, and for light from behind focus or in front (LensPoint).
-    std::array<float, 3> rgb{1, 1, 1};
-    float behind = 1, in_front = 1;
+    ColourFactors rgb = no_factors, behind = no_factors, in_front = no_factors;
 };
 
 // The positions in the pixel of a set of n points, [0, 1); the first is the middle.

@@ -32,7 +32,7 @@ Crop content_of(const AperturePicture &picture) {
 } // namespace
 
 PictureTable::PictureTable(const AperturePicture &picture,
-                           const std::function<double(const Imath::V2d &)> &weigh) {
+                           const std::function<double(const Imath::V2d &, std::size_t colour)> &weigh) {
     const Crop crop = content_of(picture);
     width_ = crop.right - crop.left;
     height_ = crop.bottom - crop.top;
@@ -46,12 +46,13 @@ PictureTable::PictureTable(const AperturePicture &picture,
             const float *rgb = &picture.rgb[pixel * 3];
             const Imath::V2d at((2 * (column + 0.5) / width_ - 1) * half_extent_.x,
                                 (2 * (row + 0.5) / height_ - 1) * half_extent_.y);
-            const double weight = weigh(at);
+            const std::array<double, 3> weight{weigh(at, 0), weigh(at, 1), weigh(at, 2)};
             const std::size_t above = index(std::size_t(column) + 1, std::size_t(row) + 1),
                               below = index(std::size_t(column) + 1, std::size_t(row));
-            for (std::size_t k = 0; k < 3; ++k) in_row[k] += weight * std::max(0.0, double(rgb[k]));
+            for (std::size_t k = 0; k < 3; ++k) in_row[k] += weight[k] * std::max(0.0, double(rgb[k]));
             for (std::size_t k = 0; k < 3; ++k) sums_[above][k] = sums_[below][k] + in_row[k];
-            coloured_ = coloured_ || rgb[0] != rgb[1] || rgb[1] != rgb[2];
+            coloured_ = coloured_ || rgb[0] != rgb[1] || rgb[1] != rgb[2] || weight[0] != weight[1] ||
+                        weight[1] != weight[2];
         }
     }
     const LightOfColours all = sums_.back();

@@ -19,8 +19,9 @@ using LightOfColours = std::array<double, 4>;
 
 class PictureTable {
 public:
-    // `weigh` returns the weight of light at a place, at least 0. Throws Error if a channel has no light.
-    PictureTable(const AperturePicture &picture, const std::function<double(const Imath::V2d &)> &weigh);
+    // `weigh` returns the weight of a colour's light at a place, at least 0. Throws Error if a channel has no light.
+    PictureTable(const AperturePicture &picture,
+                 const std::function<double(const Imath::V2d &, std::size_t colour)> &weigh);
 
     bool coloured() const { return coloured_; }                    // whether R, G and B differ
     const Imath::V2d &half_extent() const { return half_extent_; } // of the content; the longer one is 1

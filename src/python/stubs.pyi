@@ -491,16 +491,7 @@ def gather(
     highlight_gain: Optional[float] = 1,
     highlight_threshold: Optional[float] = 1,
     highlight_knee: Optional[float] = 1,
-    blades: Optional[float] = None,
-    blade_curvature: Optional[float] = None,
-    blade_rotation: Optional[float] = None,
-    squeeze: Optional[float] = None,
-    spherical: Optional[float] = None,
-    cat_eye: Optional[float] = None,
-    axial_chromatic: Optional[float] = None,
-    field_curvature: Optional[float] = None,
-    astigmatism: Optional[float] = None,
-    breathing: Optional[float] = None,
+    **LOOKS,
     cat_eye_darkening: bool = False,
     axial_chromatic_type: Optional[Literal["red-blue", "blue-yellow", "green-magenta"]] = "red-blue",
     tilt: Optional[_Pair] = None,
@@ -536,11 +527,11 @@ def gather(
     region: (left, top, right, bottom), makes only these pixels.
     highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to this many times as bright, 1
       to 1000, over a knee of highlight_knee.
-    Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
-      squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm,
-      with axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1),
-      astigmatism (-1 to 1), breathing (0 to 2), tilt ((x, y), degrees), lens (a file of share/lenses; the other
-      keywords replace its values), aperture (a picture, instead of blades).
+    Looks of the lens, of the method lens; docs/looks.md says what they do:
+      LOOKS
+    cat_eye_darkening: the cat's eye darkens. axial_chromatic_type: "red-blue", "blue-yellow" or "green-magenta".
+    tilt: (x, y), degrees. lens: a file of share/lenses; the other keywords replace its values. aperture: a picture,
+      instead of blades.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       LENS

@@ -4,8 +4,8 @@
 
 #include "../base/image.h"
 #include "../lens/thin_lens.h"
+#include "../looks/number_parameter.h"
 #include "camera.h"
-#include "number_parameter.h"
 
 #include <optional>
 #include <span>

@@ -122,11 +122,12 @@ TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
 }
 
 TEST_F(LensDeviceTest, LensPointsThatWeighDifferentlyAreTheCpus) {
-    LensLooks sides, colours;
+    LensLooks sides, colours, coloured_sides;
     sides.aperture.spherical = 0.5;
+    coloured_sides.aperture.spherical = {-0.3, 0.2, 0.7};
     colours.aperture.picture =
         std::make_shared<AperturePicture>(AperturePicture{2, 1, {1, 0.2f, 0, 0.3f, 1, 1}});
-    for (const LensLooks &looks : {sides, colours})
+    for (const LensLooks &looks : {sides, colours, coloured_sides})
         for (const bool opaque : {true, false})
             expect_same(surfaces(80, 70, opaque, 9), {.lens_samples = 8, .looks = looks});
 }

@@ -22,7 +22,7 @@ TEST(Aperture, OfTheRoundLensHasTheSameLensPointsBitForBit) {
             EXPECT_EQ(made[k].y, round[k].y);
             EXPECT_EQ(made[k].pixel_x, round[k].pixel_x);
             EXPECT_EQ(made[k].weight, round[k].weight);
-            EXPECT_EQ(made[k].behind, 1);
+            EXPECT_EQ(made[k].behind, no_factors);
         }
     }
 }
@@ -64,13 +64,38 @@ TEST(Aperture, IsNarrowerWhereItIsSqueezed) {
 TEST(Aperture, WeighsSidesBySphericalAberrationWithAMeanOf1) {
     const auto points = lens_samples(Aperture({.blades = 5, .spherical = 0.7}), 4096, 1);
     double behind = 0, in_front = 0;
-    for (const LensSample &p : points) behind += double(p.behind), in_front += double(p.in_front);
+    for (const LensSample &p : points) behind += double(p.behind[1]), in_front += double(p.in_front[1]);
     EXPECT_NEAR(behind / 4096, 1, 2e-3);
     EXPECT_NEAR(in_front / 4096, 1, 2e-3);
     const Aperture round({.spherical = 0.7}); // the mean is exactly 1, because 2 r^2 - 1 has mean 0
     EXPECT_NEAR(round.weight(true, 1), 1.7, 1e-12);
     EXPECT_NEAR(round.weight(true, 0), 0.3, 1e-12);
     EXPECT_NEAR(round.weight(false, 1), 0.3, 1e-12);
+}
+
+TEST(Aperture, WeighsColoursByTheirOwnRimsWithinLimits) {
+    const Aperture aperture({.blades = 7, .spherical = {-0.4, 0, 3}});
+    EXPECT_TRUE(aperture.coloured());
+    EXPECT_TRUE(aperture.two_sided());
+    EXPECT_FALSE(aperture.disc());
+    for (const bool behind : {true, false})
+        for (const double square : {0.0, 0.5, 1.0}) {
+            const auto alike = [&](double s) {
+                return Aperture({.blades = 7, .spherical = s}).weight(behind, square);
+            };
+            EXPECT_EQ(aperture.weight(behind, square, 0), alike(-0.4));
+            EXPECT_EQ(aperture.weight(behind, square, 1), 1);
+            EXPECT_EQ(aperture.weight(behind, square, 2), alike(1));
+        }
+    EXPECT_FALSE(Aperture({.spherical = 0.5}).coloured());
+    std::array<double, 3> behind{}, in_front{};
+    for (const LensSample &p : lens_samples(aperture, 4096, 1))
+        for (std::size_t k = 0; k < 3; ++k)
+            behind[k] += double(p.behind[k]) / 4096, in_front[k] += double(p.in_front[k]) / 4096;
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(behind[k], 1, 2e-3);
+        EXPECT_NEAR(in_front[k], 1, 2e-3);
+    }
 }
 
 TEST(Aperture, OfAPictureHasItsPointsWhereTheLightIs) {

@@ -61,6 +61,22 @@ TEST(CatEye, LeavesOfARingWhatLiesWithinBothCircles) {
     EXPECT_GT(in_front - behind, 0.01); // otherwise the weights would not matter
 }
 
+TEST(CatEye, LeavesOfEachColourWhatItsOwnRimsSay) {
+    const LensLooks coloured{.aperture = {.spherical = {-0.6, 0.2, 1}}, .cat_eye = 1};
+    const Imath::V2d p(75, 30);
+    for (const std::size_t colour : {0u, 1u, 2u}) {
+        const LensLooks even{.aperture = {.spherical = coloured.aperture.spherical[colour]}, .cat_eye = 1};
+        const Aperture aperture(coloured.aperture), alike(even.aperture);
+        const CatEye cat_eye(aperture, coloured, picture_frame(window(80, 60), coloured)),
+            other(alike, even, picture_frame(window(80, 60), even));
+        for (const Light light : {Light::behind, Light::in_front}) {
+            EXPECT_EQ(cat_eye.share(light, p, colour), other.share(light, p));
+            EXPECT_EQ(cat_eye.shares(light, {{70, 30}, {75, 32}}, colour),
+                      other.shares(light, {{70, 30}, {75, 32}}));
+        }
+    }
+}
+
 TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
     const Windows windows = window(64, 48);
     const auto grey =

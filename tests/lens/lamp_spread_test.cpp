@@ -167,6 +167,30 @@ TEST(LampSpread, WeighsRadiiAsTheSphericalAberrationSays) {
         }
 }
 
+// Each colour has the shares of an aperture whose colours are all like it; coverage has those of green.
+TEST(LampSpread, HasTheRimsOfEachColour) {
+    const ByColour rims{-0.7, 0.2, 1};
+    const auto grey = picture(3, 3, [](int x, int y) { return float(1 + x + (y == 1 ? 4 : 0)); });
+    const Imath::Box2i box{{0, 0}, Imath::V2i(size - 1)};
+    for (const double coc : {10.3, -7.1})
+        for (ApertureShape shape :
+             {ApertureShape{}, ApertureShape{.blades = 5, .squeeze = 1.4}, ApertureShape{.picture = grey}}) {
+            const Lamp lamp{{31.7, 32.2}, coc};
+            shape.spherical = rims;
+            const LampSpread spread = spread_lamp(Aperture(shape), lamp, box);
+            ASSERT_TRUE(spread.coloured);
+            for (const std::size_t k : {0u, 1u, 2u}) {
+                shape.spherical = rims[k];
+                const LampSpread alike = spread_lamp(Aperture(shape), lamp, box);
+                for (std::size_t i = 0; i < alike.weights.size(); ++i) {
+                    ASSERT_NEAR(spread.colours[i][k], alike.weights[i], 1e-15);
+                    const double coverage = k == 1 && !shape.picture ? alike.weights[i] : spread.weights[i];
+                    ASSERT_EQ(spread.weights[i], coverage);
+                }
+            }
+        }
+}
+
 TEST(LampSpread, OfAPictureIsItsLightInEachPixel) {
     // A cross of 3 x 3 squares whose middle is twice as bright; 24 pixels wide, so that a square is 8 pixels.
     const auto cross = picture(5, 5, [](int x, int y) {

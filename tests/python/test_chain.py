@@ -122,6 +122,9 @@ def test_recolor(clustered, tool, tmp_path):
         sparselens.cluster(ldi, recolor=beauty)
 
 
+# Every number of the table of looks, but for the blades.
+NUMBERS_OF_LOOKS = {row["name"]: 0.5 for row in sparselens._sparselens._parameters() if row["group"] == "Lens looks"
+                    and row["wanted"].startswith("a number from") and not row["name"].startswith("blade")}
 GATHERS = [
     {},
     {"focus_distance": 2.2},
@@ -143,6 +146,7 @@ GATHERS = [
     {"spherical": 0.5, "axial_chromatic": 0.2, "axial_chromatic_type": "blue-yellow"},
     {"tilt": (10, 0), "field_curvature": 0.1, "astigmatism": 0.2, "breathing": 1},
     {"squeeze": 2},
+    NUMBERS_OF_LOOKS,
     {"highlight_gain": 4, "highlight_threshold": 0.5, "highlight_knee": 2},
 ]
 

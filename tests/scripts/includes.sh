@@ -12,6 +12,7 @@ facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
     sed -n '/^```never$/,/^```$/{/^```/d;s/#.*//;s/:/ &/;s/^/never /;p}' docs/code.md
     sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h' | sed 's/^/public /'
+    find src/looks -name '*.h' -printf 'public looks/%f\n'
     find src tools lab plugins -path lab/tests -prune -o -type d -printf 'folder %p\n'
     find src tools lab plugins -path lab/tests -prune -o -type f -printf 'file %p\n' | sort
     { grep -rnoE --include=*.cpp --include=*.h '\b(gather_picture|gather_rows|lens_gather|make_plan|with_lens|choose_windows|border_reach)\(|->(gather|light)\(' src/python tools || true; } |

@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mode=${1-}
-code='src/base src/deep src/dof src/kernels src/lens src/plan src/view src/warp lab/trace'
+code='src/base src/deep src/dof src/kernels src/lens src/looks src/plan src/view src/warp lab/trace'
 fail() {
     echo "FAIL: $*" >&2
     exit 1

@@ -100,9 +100,9 @@ TEST(SharedPoints, KeepTheirWeights) {
     const Aperture ring({.blades = 6, .spherical = 0.5});
     float sum = 0;
     for (const auto &share : shares_of(lens_samples(ring, 96, 1), 4))
-        for (const LensSample &s : share) sum += s.behind;
+        for (const LensSample &s : share) sum += s.behind[1];
     float still = 0;
-    for (const LensSample &s : lens_samples(ring, 96, 1)) still += s.behind;
+    for (const LensSample &s : lens_samples(ring, 96, 1)) still += s.behind[1];
     EXPECT_NEAR(sum, still, 1e-3f);
 }
 

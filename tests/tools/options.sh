@@ -51,6 +51,11 @@ run() {
     [ "$tool" != dof-compare ] || mv stdout "$2"
 }
 show() { for option in "${@:2}"; do shown[$1 $option]=yes; done; }
+# looks.sh tests the numbers of the looks, as --help has them, for each tool that takes them.
+for tool in dof-gather dof-trace dof-view; do
+    # shellcheck disable=SC2046
+    show $tool $("$bin/dof-gather" --help | sed -nE '/^Lens looks:$/,/^Highlights:$/s/^  (--[a-z-]+) [A-Z]{1,3}( .*)?$/\1/p' | grep -v '^--blade')
+done
 
 for tool in "${!task[@]}"; do
     run "$tool" out.$tool.${ending[$tool]:-exr} --threads 3 -v

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "support/given_looks.h"
 #include "support/scratch_folder.h"
 #include "view/resolve_looks.h"
 
@@ -21,20 +22,20 @@ Camera camera() {
 const ThinLens lens{.radius = 0.0125, .focal_px = 200, .focus = 4};
 const Windows windows = windows_of_size(100, 60);
 
+LookValues breathing(double b) { return given(std::pair(&LookValues::breathing, b)); }
+
 LensLooks resolved(const LookValues &values) { return resolve_looks(values, camera(), lens, windows); }
 
 TEST(ResolveLooks, NothingGivenIsNoLook) { EXPECT_EQ(resolved({}), LensLooks()); }
 
 TEST(ResolveLooks, CarriesTheShapeAndTheCatEye) {
-    const LensLooks looks = resolved({.blades = 6,
-                                      .curvature = 0.5,
-                                      .rotation = 15,
-                                      .squeeze = 2,
-                                      .spherical = -0.3,
-                                      .cat_eye = 1.5,
-                                      .field_curvature = 0.2,
-                                      .astigmatism = -0.4,
-                                      .cat_eye_darkening = true});
+    LookValues values =
+        given(std::pair(&LookValues::blades, 6), std::pair(&LookValues::curvature, 0.5),
+              std::pair(&LookValues::rotation, 15), std::pair(&LookValues::squeeze, 2),
+              std::pair(&LookValues::spherical, -0.3), std::pair(&LookValues::cat_eye, 1.5),
+              std::pair(&LookValues::field_curvature, 0.2), std::pair(&LookValues::astigmatism, -0.4));
+    values.cat_eye_darkening = true;
+    const LensLooks looks = resolved(values);
     const ApertureShape shape{.blades = 6, .curvature = 0.5, .rotation = 15, .squeeze = 2, .spherical = -0.3};
     EXPECT_EQ(looks, (LensLooks{.aperture = shape,
                                 .cat_eye = 1.5,
@@ -49,7 +50,9 @@ TEST(ResolveLooks, ShiftsTheFocusOfColours) {
     const double coc = 0.1 / (2 * 2) * 4; // pixels
     using Cocs = std::array<double, 3>;
     const auto cocs = [&](std::optional<ChromaticType> type) {
-        return resolved({.axial_chromatic = 0.1, .chromatic_type = type}).chromatic_coc;
+        LookValues values = given(std::pair(&LookValues::axial_chromatic, 0.1));
+        values.chromatic_type = type;
+        return resolved(values).chromatic_coc;
     };
     const auto expect = [](const Cocs &found, const Cocs &expected) {
         for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-12);
@@ -58,25 +61,25 @@ TEST(ResolveLooks, ShiftsTheFocusOfColours) {
     expect(cocs(ChromaticType::red_blue), {-coc, 0, coc});
     expect(cocs(ChromaticType::blue_yellow), {0, 0, coc});
     expect(cocs(ChromaticType::green_magenta), {-coc, 0, -coc});
-    EXPECT_EQ(resolve_looks({.axial_chromatic = 0.1}, camera(), {.radius = 0, .focal_px = 200, .focus = 4},
-                            windows),
+    EXPECT_EQ(resolve_looks(given(std::pair(&LookValues::axial_chromatic, 0.1)), camera(),
+                            {.radius = 0, .focal_px = 200, .focus = 4}, windows),
               LensLooks());
 }
 
 TEST(ResolveLooks, TiltsByTangents) {
-    const LensLooks looks = resolved({.tilt_x = 45, .tilt_y = -60});
+    const LensLooks looks =
+        resolved(given(std::pair(&LookValues::tilt_x, 45), std::pair(&LookValues::tilt_y, -60)));
     EXPECT_NEAR(looks.tilt.x, 1, 1e-12);
     EXPECT_NEAR(looks.tilt.y, -std::numbers::sqrt3, 1e-12);
 }
 
 TEST(ResolveLooks, BreathesAsAThinLensThatMoves) {
-    EXPECT_NEAR(resolved({.breathing = 1}).magnification, 4 / (4 - 0.05), 1e-12);
-    EXPECT_NEAR(resolved({.breathing = 2}).magnification, std::pow(4 / 3.95, 2), 1e-12);
-    EXPECT_EQ(resolved({.breathing = 0}).magnification, 1);
+    EXPECT_NEAR(resolved(breathing(1)).magnification, 4 / (4 - 0.05), 1e-12);
+    EXPECT_NEAR(resolved(breathing(2)).magnification, std::pow(4 / 3.95, 2), 1e-12);
+    EXPECT_EQ(resolved(breathing(0)).magnification, 1);
     Camera in_tens = camera();
     in_tens.metres_per_unit = 10;
-    EXPECT_NEAR(resolve_looks({.breathing = 1}, in_tens, lens, windows).magnification, 4 / (4 - 0.005),
-                1e-12);
+    EXPECT_NEAR(resolve_looks(breathing(1), in_tens, lens, windows).magnification, 4 / (4 - 0.005), 1e-12);
 }
 
 TEST(ResolveLooks, LooksFromWhereTheOpticalAxisIs) {
@@ -89,18 +92,18 @@ TEST(ResolveLooks, LooksFromWhereTheOpticalAxisIs) {
 
 TEST(ResolveLooks, NamesWhatIsMissing) {
     Camera unknown;
-    for (const auto &[values, option] : {std::pair(LookValues{.breathing = 1}, "breathing"),
-                                         std::pair(LookValues{.axial_chromatic = 1}, "axial")}) {
+    for (const auto &[values, option] :
+         {std::pair(breathing(1), "breathing"),
+          std::pair(given(std::pair(&LookValues::axial_chromatic, 1)), "axial")}) {
         const auto message =
             what_of<UsageError>([&, &values = values] { resolve_looks(values, unknown, lens, windows); });
         EXPECT_NE(message.find(option), std::string::npos) << message;
         EXPECT_NE(message.find("`focal_length`"), std::string::npos) << message;
     }
     const ThinLens near{.radius = 0.0125, .focal_px = 200, .focus = 0.05};
-    EXPECT_NE(what_of<UsageError>([&] {
-                  resolve_looks({.breathing = 1}, camera(), near, windows);
-              }).find("no lens"),
-              std::string::npos);
+    EXPECT_NE(
+        what_of<UsageError>([&] { resolve_looks(breathing(1), camera(), near, windows); }).find("no lens"),
+        std::string::npos);
 }
 
 } // namespace

@@ -33,7 +33,7 @@ TEST_F(DeviceReferenceTest, OfTheLensGather) {
                                   {false, false, 45, {.aperture = {.blades = 5, .squeeze = 1.5}}},
                                   {false, false, 55, {.aperture = {.spherical = 0.8}, .cat_eye = 0.9}},
                                   {true, false, 65, {}, true},
-                                  {false, false, 75, {.aperture = {.spherical = 0.8}}, true}};
+                                  {false, false, 75, {.aperture = {.spherical = {0.8, 0, -0.6}}}, true}};
     Progress silent;
     const std::unique_ptr<TileDevice> device = open_gather_device(*info, watch());
     for (const Case &c : cases) {

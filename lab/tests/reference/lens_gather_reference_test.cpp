@@ -112,6 +112,8 @@ const Case cases[] = {
     {"ManyLensPoints", box(0, 0, 20, 20), box(0, 0, 20, 20), 1, 0.5, 3, 0, 200},
     looks("Blades", {.aperture = {.blades = 5, .rotation = 10, .squeeze = 1.5}}),
     looks("Rings", {.aperture = {.spherical = 0.8}}),
+    looks("ColouredRings", {.aperture = {.spherical = {-0.5, 0.2, 0.9}}}),
+    looks("ColouredRingsOfACatEye", {.aperture = {.spherical = {-0.5, 0.2, 0.9}}, .cat_eye = 0.7}),
     looks("RingedBlades", {.aperture = {.blades = 3, .spherical = -1}}),
     looks("RingedSolids", {.aperture = {.spherical = 0.8}}, 0.6),
     looks("ColouredAperture", {.aperture = {.picture = tinted()}}),

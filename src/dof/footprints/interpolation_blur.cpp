@@ -35,7 +35,7 @@ LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
             const double x = vertical ? point.u.y : point.u.x * aperture.shape().squeeze;
             const double column = (x + 1) / 2 * double(columns.size());
             const auto at = std::size_t(std::clamp(column, 0.0, double(columns.size() - 1)));
-            const double weight = double(behind ? point.behind : point.in_front);
+            const double weight = point.side(behind, 1); // the rims of G stand for all
             columns[at] += weight;
             columns[columns.size() - 1 - at] += weight;
         }

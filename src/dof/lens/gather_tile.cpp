@@ -31,11 +31,10 @@ bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32
 
 void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done) {
-    const bool rims =
-        std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
-    const bool coloured = std::ranges::any_of(tile.lens, [](const LensSample &p) {
-        return p.rgb != std::array<float, 3>{1, 1, 1};
-    });
+    const bool rims = std::ranges::any_of(
+        tile.lens, [](const LensSample &p) { return p.behind != no_factors || p.in_front != no_factors; });
+    const bool coloured =
+        std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.rgb != no_factors; });
     if (rims && (reaches_in_front(scene.samples, tile.samples) ||
                  reaches_in_front(scene.fillers.samples, tile.fillers)))
         gather_by<ChannelLight<2>>(scene, tile, done);

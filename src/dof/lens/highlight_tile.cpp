@@ -204,22 +204,29 @@ void HighlightTile::spread_shape(const Spreading &from) {
 void HighlightTile::add_seen(const Spreading &from, int x, int y, double weight,
                              const std::array<double, 3> *colours) {
     const bool cut = cat_eye_.cuts() && !cat_eye_.darkens();
-    const double left = cut ? left_by_cat_eye(from.lamp.coc > 0, x, y) : 1;
+    const auto left_of = [&](std::size_t colour) {
+        return cut ? left_by_cat_eye(from.lamp.coc > 0, x, y, colour) : 1;
+    };
+    const double left = left_of(1);
     if (left < least_share) return;
     if (!colours) return add(from, x, y, all_colours, weight / left);
-    add(from, x, y, red, (*colours)[0] / left);
-    add(from, x, y, green, (*colours)[1] / left);
-    add(from, x, y, blue, (*colours)[2] / left);
+    const auto add_colour = [&](ColourSet set, std::size_t colour) {
+        const double left_there = aperture_.coloured_rims() ? left_of(colour) : left;
+        if (left_there >= least_share) add(from, x, y, set, (*colours)[colour] / left_there);
+    };
+    add_colour(red, 0);
+    add_colour(green, 1);
+    add_colour(blue, 2);
     add(from, x, y, coverage | data, weight / left);
 }
 
 // The share of the light that a cat-eye leaves at a pixel.
-double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
-    std::vector<double> &shares = left_by_cat_eye_[behind];
+double HighlightTile::left_by_cat_eye(bool behind, int x, int y, std::size_t colour) {
+    std::vector<double> &shares = left_by_cat_eye_[colour * 2 + behind];
     const Imath::V2i corner = held_out_.corner + origin_;
     if (shares.empty())
         shares = cat_eye_.shares(behind ? CatEye::Light::behind : CatEye::Light::in_front,
-                                 {corner, corner + tile.max});
+                                 {corner, corner + tile.max}, colour);
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 

@@ -69,7 +69,7 @@ private:
     void add_group();
     void add_lit();
     const LampCells &cells_of(const Lamp &lamp);
-    double left_by_cat_eye(bool behind, int x, int y);
+    double left_by_cat_eye(bool behind, int x, int y, std::size_t colour);
 
     const GatherScene &scene_;
     const Highlights &highlights_ = scene_.highlights;
@@ -82,9 +82,10 @@ private:
     Imath::V2i origin_;
     // pixels of the tile that the current highlights reach
     Imath::Box2i reached_;
-    std::array<std::optional<LampCells>, 2> cells_;      // [behind], made when first asked for
-    std::array<std::vector<double>, 2> left_by_cat_eye_; // [behind][pixel], computed when first asked for
-    std::vector<float> light_;                           // [group][row][column][4]
+    std::array<std::optional<LampCells>, 2> cells_; // [behind], made when first asked for
+    std::array<std::vector<double>, 6>
+        left_by_cat_eye_;      // [colour][behind][pixel], computed when first asked for
+    std::vector<float> light_; // [group][row][column][4]
     // The same, for the current highlights that are shadowed together, as if nothing hid them.
     std::vector<float> together_;
     bool any_together_ = false;

@@ -56,8 +56,10 @@ void ChannelLight<sides_>::weigh_channels(const LensSample &point) {
         const ColourSet set = scene_.colours.sets[k];
         const bool darkened = kernels::is_darkened(set, scene_.cat_eye() && scene_.cat_eye()->darkens());
         for (const std::size_t side : {0u, 1u}) {
-            light_[side][k] = kernels::light_weight(set, point.weight, point.rgb[0], point.rgb[1],
-                                                    point.rgb[2], side == 1 ? point.in_front : point.behind);
+            const ColourFactors &rgb = point.rgb, &of_side = side == 1 ? point.in_front : point.behind;
+            light_[side][k] = kernels::light_weight(
+                set, point.weight, kernels::of_colour(set, rgb[0], rgb[1], rgb[2], 1),
+                kernels::of_colour(set, of_side[0], of_side[1], of_side[2], of_side[1]));
             weight_[side][k] = darkened ? point.weight : light_[side][k];
         }
     }

@@ -99,7 +99,8 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     float before = 0;
     for (const LensSample &p : lens) {
         stripe.lens.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2],
-                               p.behind, p.in_front, before});
+                               p.behind[0], p.behind[1], p.behind[2], p.in_front[0], p.in_front[1],
+                               p.in_front[2], before});
         before += p.weight;
     }
     return at;

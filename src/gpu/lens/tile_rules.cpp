@@ -22,8 +22,8 @@ constexpr std::size_t words_a_part = 3;
 std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens) {
     const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
     std::uint32_t rules = 0;
-    if (any([](const LensSample &p) { return p.rgb != std::array<float, 3>{1, 1, 1}; })) rules |= weighted;
-    if (any([](const LensSample &p) { return p.behind != 1 || p.in_front != 1; }))
+    if (any([](const LensSample &p) { return p.rgb != no_factors; })) rules |= weighted;
+    if (any([](const LensSample &p) { return p.behind != no_factors || p.in_front != no_factors; }))
         rules |= weighted | two_sided;
     if (scene.cat_eye()) rules |= weighted | cat_eye;
     if (scene.cat_eye() && scene.cat_eye()->darkens()) rules |= darkens;

@@ -26,10 +26,14 @@ void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
 
 // Returns the weight of the lens point for each channel, for what lies in front of focus or behind.
 vec4 channel_weights(uint group, bool in_front) {
-    const float side_ = in_front ? lens.in_front : lens.behind;
+    const vec3 sides = in_front ? vec3(lens.red_in_front, lens.green_in_front, lens.blue_in_front)
+                                : vec3(lens.red_behind, lens.green_behind, lens.blue_behind);
     vec4 weights;
-    for (uint k = 0; k < 4; ++k)
-        weights[k] = light_weight(sets[group * 4 + k], lens.weight, lens.red, lens.green, lens.blue, side_);
+    for (uint k = 0; k < 4; ++k) {
+        const uint set = sets[group * 4 + k];
+        const float side_ = of_colour(set, sides.x, sides.y, sides.z, sides.y);
+        weights[k] = light_weight(set, lens.weight, of_colour(set, lens.red, lens.green, lens.blue, 1), side_);
+    }
     return weights;
 }
 

@@ -243,7 +243,8 @@ TEST(LensGatherOfAPoint, IsThePictureOfTheAperture) {
     for (const ApertureShape &shape :
          {ApertureShape{.blades = 5, .rotation = 20}, ApertureShape{.blades = 3, .curvature = 0.5},
           ApertureShape{.squeeze = 2}, ApertureShape{.squeeze = 0.5}, ApertureShape{.spherical = 0.9},
-          ApertureShape{.blades = 6, .spherical = -0.5}, ApertureShape{.picture = coloured_halves()}})
+          ApertureShape{.blades = 6, .spherical = -0.5}, ApertureShape{.spherical = {0.8, 0, -0.8}},
+          ApertureShape{.picture = coloured_halves()}})
         for (const double c : {9.3, -13.7}) {
             const int size = 2 * int(std::abs(c) / std::min(1.0, shape.squeeze)) + 12;
             const PixelLamp lamp{{size / 2, size / 2 + 1}, 0.3f, -0.2f, c};

@@ -36,6 +36,7 @@ std::vector<LensLooks> all_looks() {
             {.aperture = {.blades = 5, .squeeze = 0.5}},
             {.aperture = {.spherical = 0.9}},
             {.aperture = {.blades = 7, .spherical = -0.9}},
+            {.aperture = {.spherical = {-0.7, 0, 0.7}}},
             {.aperture = {.picture = picture()}},
             {.aperture = {.squeeze = 1.5, .spherical = 0.5, .picture = picture()}},
             {.cat_eye = 1.2},

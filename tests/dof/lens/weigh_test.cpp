@@ -96,7 +96,8 @@ TEST_F(WeighTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
 }
 
 TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
-    const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, .5f, 1.5f}, rim{0, 0, 0, 0, 1, {1, 1, 1}, 1.5f, .5f};
+    const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, {9, .5f, 9}, {9, 1.5f, 9}},
+        rim{0, 0, 0, 0, 1, {1, 1, 1}, {9, 1.5f, 9}, {9, .5f, 9}};
     const float by_side = mean<ChannelLight<2>>({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}).value;
     EXPECT_FLOAT_EQ(by_side, (3 * 1.5f * 8 + 1.5f * 2) / (3 * 1.5f + 1.5f));
     const float one_side =

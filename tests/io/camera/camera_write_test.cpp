@@ -26,7 +26,9 @@ Camera full_camera() {
     camera.metres_per_unit = 0.01;
     camera.world_to_camera = Imath::M44d(1, 0, 0, 0, 0, 0.5, 0.25, 0, 0, -0.25, 0.5, 0, 7, 8, 9, 1);
     camera.world_to_ndc = Imath::M44d(2, 0, 0, 0, 0, -3, 0, 0, 0.5, 0.5, 1, 1, 0, 0, -1, 0);
-    camera.looks = {.blades = 7, .rotation = 30, .squeeze = 1.5};
+    camera.looks.blades = 7;
+    camera.looks.rotation = 30;
+    camera.looks.squeeze = 1.5;
     camera.supersample = 3;
     camera.pixel_filter = PixelFilter{PixelFilter::Shape::gaussian, 2.5};
     camera.lens_points = {{0, 0}, {0.0625, -0.03125}, {-1e-9, 12345.5}};

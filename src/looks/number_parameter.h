@@ -14,6 +14,14 @@ inline constexpr NumberRange above_0{"a number above 0", [](double v) { return v
     above_0_or_inf{"a number above 0, or inf", [](double v) { return v > 0; }},
     at_least_0{"a number of at least 0", [](double v) { return v >= 0 && std::isfinite(v); }};
 
+// A control among the looks on a page.
+struct PageControl {
+    const char *label = "";   // as photographers say; empty: no control
+    double low = 0, high = 0; // the ends of a number's slider
+    double usual = 0;         // the number if none is given
+    int whole_from = 0;       // if not 0, the slider has `low`, and whole numbers from this one on
+};
+
 template <typename Values>
 struct NumberParameter {
     const char *name; // "lens-radius": the name of an option, without dashes
