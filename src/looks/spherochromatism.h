@@ -18,8 +18,7 @@ struct Spherochromatism {
         return std::array{LookRow<Spherochromatism>{
             {"spherochromatism", "K",
              "Spherical aberration that is K less for red and K more for blue than for green, from -1 to 1: "
-             "above 0, "
-             "discs behind focus have blue rims and those in front red rims (default: 0)",
+             "above 0, discs behind focus have blue rims and those in front red rims (default: 0)",
              &Spherochromatism::spherochromatism, from_minus_1_to_1},
             {"coloured rims", -1, 1}}};
     }

@@ -88,6 +88,14 @@ TEST(LensSearch, noise_of_gathered_pictures_does_not_stop_the_search) {
     EXPECT_NEAR(fit.guess.scale, 0.7, 0.04); // the noise passes for softness
 }
 
+// A step along the slopes ends early; the same way on leads farther.
+TEST(LensSearch, repeats_a_step_that_helps) {
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.03f);
+    const LensFit fit = refine_lens(pictures, {}, {3, 0.4, 0.3}, 8, 0.75);
+    EXPECT_NEAR(fit.guess.coc, 1, 0.07);
+    EXPECT_NEAR(fit.guess.scale, 0.7, 0.07);
+}
+
 TEST(LensSearch, the_interval_is_as_wide_as_other_lenses_fit) {
     const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
     const LensFit narrow = refine_lens(pictures, {}, {1, 0.7, 0.15}, 1, 0.75),
