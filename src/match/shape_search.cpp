@@ -60,40 +60,31 @@ public:
         return best;
     }
 
-    // The best polygon with the squeeze of `round`. Each number of blades is turned to where it fits best before it is
-    // compared with others, because at a wrong rotation another number may fit better.
+    // The best polygon with the squeeze of `round`.
     Candidate best_blades(const ApertureShape &round, const BlurGuess &guess) const {
         Candidate best;
         best.likelihood = -std::numeric_limits<double>::infinity();
-        for (int blades = MatchTuning::fewest_blades; blades <= MatchTuning::most_blades; ++blades) {
-            ApertureShape shape = round;
-            shape.blades = blades;
-            keep_better(best, best_rotation(shape, guess, round));
+        for (int blades = MatchTuning::fewest_blades; blades <= MatchTuning::most_blades; ++blades)
+            for (int i = 0; i < MatchTuning::rotations; ++i) {
+                ApertureShape shape = round;
+                shape.blades = blades;
+                shape.rotation = i * period(shape) / MatchTuning::rotations;
+                keep_better(best, tried(shape, guess, round));
+            }
+        for (double step = period(best.shape) / MatchTuning::rotations / 2; step > MatchTuning::finest_turn;
+             step /= 2) {
+            const Candidate middle = best;
+            for (const double turn : {-step, step}) {
+                ApertureShape shape = middle.shape;
+                shape.rotation += turn;
+                keep_better(best, tried(shape, middle.guess, middle.shape));
+            }
         }
         best.shape.rotation = std::remainder(best.shape.rotation, period(best.shape));
         return best;
     }
 
 private:
-    Candidate best_rotation(ApertureShape shape, const BlurGuess &guess,
-                            const ApertureShape &of_guess) const {
-        Candidate best;
-        best.likelihood = -std::numeric_limits<double>::infinity();
-        const double apart = period(shape) / MatchTuning::rotations;
-        for (int i = 0; i < MatchTuning::rotations; ++i) {
-            shape.rotation = i * apart;
-            keep_better(best, tried(shape, guess, of_guess));
-        }
-        for (double step = apart / 2; step > MatchTuning::finest_turn; step /= 2) {
-            const double middle = best.shape.rotation;
-            for (const double turn : {-step, step}) {
-                shape.rotation = middle + turn;
-                keep_better(best, tried(shape, guess, of_guess));
-            }
-        }
-        return best;
-    }
-
     static void keep_better(Candidate &best, const Candidate &other) {
         if (other.likelihood > best.likelihood) best = other;
     }
@@ -117,9 +108,7 @@ ShapeFit find_shape(const Comparison &pictures, const ShapedGather &gather, cons
         if (by >= MatchTuning::shape_lead) best = {candidate.shape, std::move(fit), true};
     };
     consider(search.best_squeeze(best.fit.guess));
-    // A disc that is fitted to the picture of a polygon may lead away from its lens.
-    const BlurGuess fitted = best.fit.guess;
-    for (const BlurGuess &guess : {fitted, round}) consider(search.best_blades(best.shape, guess));
+    consider(search.best_blades(best.shape, best.fit.guess));
     return best;
 }
 

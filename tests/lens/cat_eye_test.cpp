@@ -77,6 +77,24 @@ TEST(CatEye, LeavesOfEachColourWhatItsOwnRimsSay) {
     }
 }
 
+TEST(CatEye, ColumnsAreThePixelsThatSeeALensPoint) {
+    const Windows windows = window(64, 48);
+    const LensLooks looks{.aperture = {.squeeze = 1.5}, .cat_eye = 1.6};
+    const Aperture aperture(looks.aperture);
+    const CatEye cat_eye(aperture, looks, picture_frame(windows, looks));
+    int cut = 0;
+    for (const Imath::V2f &at : {Imath::V2f(0, 0), {0.5f, 0.3f}, {-0.6f, 0.1f}, {0.1f, -0.9f}, {-0.2f, 0.7f}})
+        for (int y = 0; y < 48; ++y) {
+            const CatEye::Columns columns = cat_eye.columns({at.x, at.y, 0, 0, 1}, 3, 50, y);
+            for (int x = 0; x < 50; ++x) {
+                const bool passes = cat_eye.passes({at.x, -at.y}, {x + 3.5, y + 0.5});
+                ASSERT_EQ(x >= columns.begin && x < columns.end, passes) << at << x << ' ' << y;
+                cut += passes ? 0 : 1;
+            }
+        }
+    EXPECT_GT(cut, 1000);
+}
+
 TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
     const Windows windows = window(64, 48);
     const auto grey =
