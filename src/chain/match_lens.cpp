@@ -1,15 +1,11 @@
 #include "chain/match_lens.h"
 
-#include "base/error.h"
 #include "base/subpixels.h"
 #include "chain/match_doubt.h"
 #include "chain/match_pictures.h"
 #include "chain/match_values.h"
-#include "lens/perceptive_depth.h"
 #include "match/evidence.h"
 #include "match/tuning.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,11 +62,9 @@ std::vector<LensFit> refined(const Comparison &pictures, const KnownLens &known,
     return hills_of(pictures, std::move(fits));
 }
 
-// The guesses of the best fits, at most so many.
-std::vector<BlurGuess> guesses_of(const std::vector<LensFit> &fits, int most) {
+std::vector<BlurGuess> guesses_of(const std::vector<LensFit> &fits) {
     std::vector<BlurGuess> guesses;
-    for (const LensFit &fit : fits)
-        if (guesses.size() < std::size_t(most)) guesses.push_back(fit.guess);
+    for (const LensFit &fit : fits) guesses.push_back(fit.guess);
     return guesses;
 }
 
@@ -88,6 +82,7 @@ std::vector<BlurGuess> enlarged(const std::vector<BlurGuess> &guesses, double ra
     return result;
 }
 
+// The best fit of the final size, and whether another lens fits as well.
 struct Found {
     LensFit fit;
     bool is_ambiguous = false;
@@ -103,13 +98,12 @@ Found best_fit(const Match &match, const Reduced &fine) {
     const KnownLens known_small = known_lens(match, small);
     std::vector<BlurGuess> guesses =
         guesses_of(refined(small.pictures, known_small, search_lens(small.pictures, known_small),
-                           MatchTuning::search_steps, MatchTuning::search_reach_px),
-                   MatchTuning::refined_guesses);
+                           MatchTuning::search_steps, MatchTuning::search_reach_px));
     // One step shows which of them are worth more.
     const double reach = MatchTuning::final_reach_px;
-    guesses =
-        guesses_of(refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()), 1, reach),
-                   MatchTuning::final_guesses);
+    guesses = guesses_of(
+        refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()), 1, reach));
+    guesses.resize(std::min(guesses.size(), MatchTuning::final_guesses));
     std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_steps, reach);
     const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&

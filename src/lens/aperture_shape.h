@@ -26,7 +26,7 @@ struct AperturePicture {
     std::vector<float> rgb;
 };
 
-// A number for R, G and B, the same unless said.
+// A number for each of R, G and B. One number stands for all three.
 struct ByColour {
     std::array<double, 3> of{0, 0, 0};
 

@@ -1,6 +1,6 @@
-// The highlights that a plate clips, because a sensor and a file have a largest value. How bright they were is unknown,
-// but a pixel of a reduced plate that a bright lamp covers in part must be nearly as bright as the lamp, as it is in a
-// gathered picture. Otherwise discs look smaller, and so does the lens.
+// The highlights that a plate clips, because a sensor and a file have a largest value. How bright they were is unknown.
+// In a gathered picture, a pixel that a bright lamp covers in part is nearly as bright as the lamp. In a reduced plate it
+// would be grey, so discs, and with them the lens, would look smaller.
 #pragma once
 
 #include <span>

@@ -76,11 +76,12 @@ std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &
                              [](const Scored &a, const Scored &b) { return a.likelihood > b.likelihood; });
     const double range = half_range(pictures);
     const auto is_near = [&](const BlurGuess &a, const BlurGuess &b) {
-        return std::abs(a.coc - b.coc) + range * std::abs(a.scale - b.scale) < 1.5 * MatchTuning::search_step;
+        return std::abs(a.coc - b.coc) + range * std::abs(a.scale - b.scale) <
+               MatchTuning::steps_apart * MatchTuning::search_step;
     };
     std::vector<BlurGuess> chosen;
     for (const Scored &one : scored) {
-        if (chosen.size() == std::size_t(MatchTuning::refined_guesses)) break;
+        if (chosen.size() == MatchTuning::refined_guesses) break;
         if (std::ranges::none_of(chosen, [&](const BlurGuess &c) { return is_near(c, one.guess); }))
             chosen.push_back(one.guess);
     }

@@ -92,7 +92,7 @@ private:
         return variance;
     }
 
-    // How one guess becomes another.
+    // The step from one guess to another.
     Changes change(const BlurGuess &from, const BlurGuess &to) const {
         Changes by{};
         by[coc_change] = to.coc - from.coc;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace sparselens {
 
@@ -74,6 +75,8 @@ struct MatchTuning {
     // Distance of neighbouring guesses of the search, pixels of CoC at the reduced size, or as a share of the range of
     // the CoC if that is more.
     static constexpr double search_step = 1.25, search_share = 0.1;
+    // Guesses of the search that are this many steps apart may lie on hills of their own.
+    static constexpr double steps_apart = 1.5;
     // The widest lens of the search, relative to the LDI's; the narrowest blurs by this many reduced pixels.
     static constexpr double widest = 1.3, narrowest_px = 0.5;
     // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit of a first frame has
@@ -81,8 +84,8 @@ struct MatchTuning {
     static constexpr int search_points = 32, refine_points = 64;
     // How many of the best guesses of the search are refined, how many of these at the final size, and how often at
     // most.
-    static constexpr int refined_guesses = 6, final_guesses = 4, search_steps = 8, final_steps = 8,
-                         next_frame_steps = 2;
+    static constexpr std::size_t refined_guesses = 6, final_guesses = 4;
+    static constexpr int search_steps = 8, final_steps = 8, next_frame_steps = 2;
     // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
     static constexpr double softness_apart = 0.5;
     // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This

@@ -529,9 +529,9 @@ def gather(
       to 1000, over a knee of highlight_knee.
     Looks of the lens, of the method lens; docs/looks.md says what they do:
       LOOKS
-    cat_eye_darkening: the cat's eye darkens. axial_chromatic_type: "red-blue", "blue-yellow" or "green-magenta".
-    tilt: (x, y), degrees. lens: a file of share/lenses; the other keywords replace its values. aperture: a picture,
-      instead of blades.
+    cat_eye_darkening: it is dark where the cat's eye blocks light. axial_chromatic_type: "red-blue", "blue-yellow" or
+      "green-magenta". tilt: (x, y), degrees. lens: a file of share/lenses; the other keywords replace its values.
+      aperture: a picture, instead of blades.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       LENS

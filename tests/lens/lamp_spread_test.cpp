@@ -184,8 +184,9 @@ TEST(LampSpread, HasTheRimsOfEachColour) {
                 const LampSpread alike = spread_lamp(Aperture(shape), lamp, box);
                 for (std::size_t i = 0; i < alike.weights.size(); ++i) {
                     ASSERT_NEAR(spread.colours[i][k], alike.weights[i], 1e-15);
-                    const double coverage = k == 1 && !shape.picture ? alike.weights[i] : spread.weights[i];
-                    ASSERT_EQ(spread.weights[i], coverage);
+                    if (k == 1 && !shape.picture) {
+                        ASSERT_EQ(spread.weights[i], alike.weights[i]);
+                    }
                 }
             }
         }

@@ -78,7 +78,7 @@ Ldi lamp_alone(double coc) {
 }
 
 TEST(Spherochromatism, GathersLampsWithColouredRimsAndTheirLight) {
-    for (const double coc : {6.5, -15.5}) { // a disc in focus enough for cells of the lens, and a large one
+    for (const double coc : {6.5, -15.5}) { // a disc small enough for cells of the lens, and a large one
         const Image image = gather(lamp_alone(coc), looks_of(0.8));
         std::array<double, 4> sums{};
         for (std::size_t k = 0; k < 4; ++k)
@@ -97,7 +97,7 @@ TEST(Spherochromatism, GathersLampsWithColouredRimsAndTheirLight) {
     }
 }
 
-// Also what is no lamp: a step of brightness has a blue and a red side, but surfaces of one brightness stay grey.
+// A step of brightness has a blue and a red side, too. Surfaces of one brightness stay grey.
 TEST(Spherochromatism, ColoursEdgesAndKeepsGreySurfacesGrey) {
     const auto step = [](int x, int) {
         return std::vector<Sample>{{10, {x < 24 ? 1 : 0.2f, x < 24 ? 1 : 0.2f, x < 24 ? 1 : 0.2f, 1}}};

@@ -56,5 +56,10 @@ answers_help() {
     fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
+# The options of the numbers among the looks of a lens, but for the blades, as the table of looks has them.
+options_of_looks() {
+    "$bin/dof-gather" --help | sed -nE '/^Lens looks:$/,/^Highlights:$/s/^  (--[a-z-]+) [A-Z]{1,3}( .*)?$/\1/p' | grep -v '^--blade'
+}
+
 # readme_block LANGUAGE [DOCUMENT]: the contents of all fenced blocks in that language in README.md, or in the document.
 readme_block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/${2:-README.md}"; }

@@ -3,9 +3,8 @@
 # agree on what it does, dof-view shows it, and 0 is what a lens without it does.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
-looks() { "$bin/dof-gather" --help | sed -nE '/^Lens looks:$/,/^Highlights:$/s/^  --([a-z-]+) [A-Z]{1,3}( .*)?$/\1/p'; }
-numbers=$(looks | grep -v '^blade') # dof-gather.sh and dof-trace.sh test blades, which depend on each other
-[ "$(wc -w <<<"$numbers")" -ge 7 ] || fail "few looks: $numbers"
+options=$(options_of_looks) # dof-gather.sh and dof-trace.sh test blades, which depend on each other
+[ "$(wc -w <<<"$options")" -ge 7 ] || fail "few looks: $options"
 
 reference() { exits 0 "$bin/dof-trace" fence --size 96x54 --views 0 --spp 1 --reference 1024 -o "$@"; }
 toned() { oiiotool "$1" --ch R,G,B --addc 1 --powc -1 -o "$2"; } # 1 / (1 + v), so that lamps do not outweigh the rest
@@ -18,18 +17,18 @@ exits 0 "$bin/dof-gather" ldi.exr -o without.exr --quality final
 reference traced
 toned without.exr gathered_without.exr
 toned traced/reference.exr traced_without.exr
-for look in $numbers; do
-    reference traced "--$look" 0.5
-    exits 0 "$bin/dof-gather" ldi.exr -o with.exr --quality final "--$look" 0.5
+for look in $options; do
+    reference traced "$look" 0.5
+    exits 0 "$bin/dof-gather" ldi.exr -o with.exr --quality final "$look" 0.5
     toned with.exr gathered_with.exr
     toned traced/reference.exr traced_with.exr
     error=$(change_error gathered_with.exr gathered_without.exr traced_with.exr traced_without.exr)
     change=$(change_error traced_with.exr traced_with.exr traced_with.exr traced_without.exr)
     awk -v a="$error" -v b="$change" 'BEGIN { exit !(a < b) }' ||
-        fail "--$look 0.5 changes the traced picture by $change; the gathered one's change differs from that by $error"
-    [ "$look" = squeeze ] && continue # 1 is none
-    exits 0 "$bin/dof-gather" ldi.exr -o none.exr --quality final "--$look" 0
-    cmp -s none.exr without.exr || fail "--$look 0 changes the picture"
+        fail "$look 0.5 changes the traced picture by $change; the gathered one's change differs from that by $error"
+    [ "$look" = --squeeze ] && continue # 1 is none
+    exits 0 "$bin/dof-gather" ldi.exr -o none.exr --quality final "$look" 0
+    cmp -s none.exr without.exr || fail "$look 0 changes the picture"
 done
 # shellcheck disable=SC2046
-PYTHONDONTWRITEBYTECODE=1 exits 0 python3 "$source_dir/tests/viewing/agree.py" "$bin" ldi.exr $(for look in $numbers; do echo "--$look 0.5"; done)
+PYTHONDONTWRITEBYTECODE=1 exits 0 python3 "$source_dir/tests/viewing/agree.py" "$bin" ldi.exr $(for look in $options; do echo "$look 0.5"; done)

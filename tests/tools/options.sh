@@ -54,7 +54,7 @@ show() { for option in "${@:2}"; do shown[$1 $option]=yes; done; }
 # looks.sh tests the numbers of the looks, as --help has them, for each tool that takes them.
 for tool in dof-gather dof-trace dof-view; do
     # shellcheck disable=SC2046
-    show $tool $("$bin/dof-gather" --help | sed -nE '/^Lens looks:$/,/^Highlights:$/s/^  (--[a-z-]+) [A-Z]{1,3}( .*)?$/\1/p' | grep -v '^--blade')
+    show $tool $(options_of_looks)
 done
 
 for tool in "${!task[@]}"; do
