@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t nuisances = 7, first_tint = 5; // 1, V, V^2, V_x, V_y, R - V, B - V
 using Row = std::array<double, nuisances + 1>;       // of a pixel: the nuisances, the plate
 
-// Sums of products of the columns; the last column is the plate.
+// Sums of products of the columns; the last column is the plate. The matrix is symmetric: its upper half is kept.
 template <std::size_t columns>
 struct Products {
     std::array<std::array<double, columns>, columns> of{};
@@ -22,7 +22,7 @@ struct Products {
     void add(const std::array<double, columns> &row, double weight) {
         for (std::size_t i = 0; i < columns; ++i) {
             const double value = weight * row[i];
-            for (std::size_t k = 0; k < columns; ++k) of[i][k] += value * row[k];
+            for (std::size_t k = i; k < columns; ++k) of[i][k] += value * row[k];
         }
     }
     // Takes out of all later columns what column `i` explains of them.

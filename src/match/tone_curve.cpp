@@ -1,12 +1,14 @@
 #include "match/tone_curve.h"
 
 #include "base/median.h"
+#include "base/parallel.h"
 #include "match/tuning.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -74,21 +76,42 @@ std::vector<Point> rising(const std::vector<Point> &points) {
     return curve;
 }
 
-// Linear between the points, constant beyond them.
-double value_at(const std::vector<Point> &curve, double from) {
-    const auto after = std::ranges::upper_bound(curve, from, {}, &Point::from);
-    if (after == curve.begin()) return after->to;
-    const Point &before = *(after - 1);
-    if (after == curve.end()) return before.to;
-    return before.to + (after->to - before.to) * (from - before.from) / (after->from - before.from);
-}
+// The curve through points: linear between them, constant beyond them.
+class Curve {
+public:
+    explicit Curve(std::vector<Point> points) : points_(std::move(points)) { // at least one
+        for (std::size_t bin = 0; bin < after_.size(); ++bin) {
+            const double begin = double(bin) / MatchTuning::curve_points;
+            after_[bin] =
+                std::size_t(std::ranges::upper_bound(points_, begin, {}, &Point::from) - points_.begin());
+        }
+    }
+    double at(double from) const {
+        std::size_t after = std::isnan(from) ? points_.size() : after_[place_of(float(from), after_.size())];
+        while (after < points_.size() && points_[after].from <= from) ++after;
+        if (after == 0) return points_.front().to;
+        const Point &before = points_[after - 1];
+        if (after == points_.size()) return before.to;
+        const Point &next = points_[after];
+        return before.to + (next.to - before.to) * (from - before.from) / (next.from - before.from);
+    }
+
+private:
+    std::vector<Point> points_;
+    std::array<std::size_t, MatchTuning::curve_points>
+        after_{}; // [bin of values]: the first point beyond its begin
+};
 
 Colours with_curves(const Colours &plate, std::span<const std::uint8_t> usable, Colours shown) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::vector<Point> curve = rising(points_of(plate.rgb[k], usable, shown.rgb[k]));
-        if (curve.empty()) continue;
-        for (float &v : shown.rgb[k]) v = float(value_at(curve, double(v)));
-    }
+    parallel_for(3, [&](std::size_t k) {
+        std::vector<Point> points = rising(points_of(plate.rgb[k], usable, shown.rgb[k]));
+        if (points.empty()) return;
+        const Curve curve(std::move(points));
+        parallel_ranges(shown.rgb[k].size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                shown.rgb[k][i] = float(curve.at(double(shown.rgb[k][i])));
+        });
+    });
     return shown;
 }
 
