@@ -31,12 +31,12 @@ std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &
     if (is_ambiguous)
         return "the focus may lie in front of or behind what the region shows; choose a region with more "
                "depths";
-    if (certain * lens.coc_deviation > MatchTuning::widest_coc_px && lens.focus_deviation > 0)
+    if (certain * lens.coc_deviation > MatchTuning::widest_coc_px && lens.focus_deviation.both() > 0)
         return fmt::format(
             "the focus cannot be told: its blur is certain to {:.1f} pixels only; choose a larger "
             "region with more texture",
             certain * lens.coc_deviation);
-    const double stops = 2 / std::numbers::ln2 * certain * lens.radius_deviation;
+    const double stops = 2 / std::numbers::ln2 * certain * lens.radius_deviation.both();
     if (stops > MatchTuning::widest_stops)
         return fmt::format(
             "the f-stop cannot be told: it is certain to {:.1f} stops only; choose a region with "

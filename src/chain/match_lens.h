@@ -8,6 +8,7 @@
 #include "../io/lens_file.h"
 #include "../io/open_ldi.h"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -18,18 +19,25 @@ struct MatchedValue {
     double value = 0, low = 0, high = 0;
 };
 
+// A standard deviation: the part that differs from frame to frame, and the error of gathered pictures, which neighbouring
+// frames share.
+struct MatchedDeviation {
+    double own = 0, shared = 0;
+    double both() const { return std::hypot(own, shared); }
+};
+
 // The lens of one plate.
 struct MatchedLens {
     MatchedValue focus_distance;       // scene units, (0, inf]
     MatchedValue lens_radius;          // scene units
     std::optional<MatchedValue> fstop; // if the focal length is known
     double softness = 0;               // of the whole plate: standard deviation, pixels of the plate
-    double matched_share = 0;    // of the blocks that show something: those that show what the LDI shows
-    double largest_coc = 0;      // in the region, pixels of the plate
-    double coc_deviation = 0;    // standard deviation of the CoC at the middle depth, pixels of the plate
-    double focus_deviation = 0;  // standard deviation of 1 / focus_distance
-    double radius_deviation = 0; // standard deviation of the radius's natural logarithm
-    std::string doubt = {};      // why this is not the lens of the plate; empty: it is
+    double matched_share = 0; // of the blocks that show something: those that show what the LDI shows
+    double largest_coc = 0;   // in the region, pixels of the plate
+    double coc_deviation = 0; // standard deviation of the CoC at the middle depth, pixels of the plate
+    MatchedDeviation focus_deviation;  // of 1 / focus_distance
+    MatchedDeviation radius_deviation; // of the radius's natural logarithm
+    std::string doubt = {};            // why this is not the lens of the plate; empty: it is
     Image fit = {}; // the gathered picture beside the plate, in grey, tone-mapped as they were compared
 };
 

@@ -9,11 +9,10 @@
 
 namespace sparselens {
 
-// Deviations get the error of gathered pictures besides that of the blocks.
 void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit) {
     const auto &[coc, scale, softness] = fit.guess;
-    const auto wider = [](double variance, double least) {
-        return std::hypot(MatchTuning::joint_blocks * std::sqrt(std::max(variance, 0.0)), least);
+    const auto own = [](double variance) {
+        return MatchTuning::joint_blocks * std::sqrt(std::max(variance, 0.0));
     };
     const double focus = in.pictures.middle + coc / scale;
     // The variance of middle + coc / scale.
@@ -26,13 +25,14 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     };
     const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
     of.largest_coc = in.by() * largest;
-    of.coc_deviation = in.by() * wider(c.coc, MatchTuning::gather_coc_px);
-    of.focus_deviation = wider(focus_variance, MatchTuning::gather_coc_px / scale) / in.depth_scale();
-    of.radius_deviation =
-        wider(c.scale / (scale * scale),
-              std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6)));
-    if (match.request.fit == MatchFit::fstop) of.focus_deviation = 0;
-    if (match.request.fit == MatchFit::focus) of.radius_deviation = 0;
+    of.coc_deviation = in.by() * std::hypot(own(c.coc), MatchTuning::gather_coc_px);
+    of.focus_deviation = {own(focus_variance) / in.depth_scale(),
+                          MatchTuning::gather_coc_px / scale / in.depth_scale()};
+    of.radius_deviation = {
+        own(c.scale / (scale * scale)),
+        std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6))};
+    if (match.request.fit == MatchFit::fstop) of.focus_deviation = {};
+    if (match.request.fit == MatchFit::focus) of.radius_deviation = {};
     of.softness = std::sqrt(std::max(softness, 0.0)) * in.by();
     of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
     of.lens_radius.value = in.radius() * scale;
@@ -47,9 +47,9 @@ double distance_at(double inverse) { return inverse > 0 ? 1 / inverse : infinite
 
 void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius) {
     const double focus = 1 / of.focus_distance.value;
-    of.focus_distance.low = distance_at(focus + certain * of.focus_deviation);
-    of.focus_distance.high = distance_at(focus - certain * of.focus_deviation);
-    const double factor = std::exp(certain * of.radius_deviation);
+    of.focus_distance.low = distance_at(focus + certain * of.focus_deviation.both());
+    of.focus_distance.high = distance_at(focus - certain * of.focus_deviation.both());
+    const double factor = std::exp(certain * of.radius_deviation.both());
     of.lens_radius.low = of.lens_radius.value / factor;
     of.lens_radius.high = of.lens_radius.value * factor;
     if (!stops_by_radius) return;

@@ -1,10 +1,12 @@
 #include "match/smooth_keys.h"
 
+#include "base/median.h"
 #include "match/tuning.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sparselens {
 
@@ -38,15 +40,21 @@ public:
                 b[i] -= rows_[i + ahead][ahead] * b[i + ahead];
         return b;
     }
+    double log_determinant() const {
+        double sum = 0;
+        for (const auto &row : rows_) sum += std::log(row[0]);
+        return sum;
+    }
 
 private:
     std::vector<std::array<double, 3>> rows_; // [row][distance to the main diagonal]
 };
 
+constexpr std::array<double, 3> second{1, -2, 1}; // differences
+
 Banded equations(std::span<const double> weights, double stiffness) {
     Banded of(weights.size());
     for (std::size_t i = 0; i < weights.size(); ++i) of.add(i, i, weights[i]);
-    constexpr std::array<double, 3> second{1, -2, 1};
     for (std::size_t t = 0; t + 2 < weights.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k <= i; ++k) of.add(t + i, t + k, stiffness * second[i] * second[k]);
@@ -54,59 +62,94 @@ Banded equations(std::span<const double> weights, double stiffness) {
     return of;
 }
 
+// The curve of a stiffness.
 struct Curve {
-    std::vector<double> values, weights;
-    double excess =
-        0; // mean of the squared distances of the values, in deviations, each at most `far` squared
+    double stiffness = 0;
+    std::vector<double> values;
+    double variance = 1; // the square of the factor of all deviations
+    double unlikely = 0; // -2 times the logarithm of the likelihood, but for a constant
 };
 
-Curve curve_by(std::span<const KeyedValue> keys, double stiffness) {
+// `weights`: 0 where a value is unknown.
+Curve curve_by(std::span<const KeyedValue> keys, std::span<const double> weights, double stiffness) {
     const std::size_t n = keys.size();
-    Curve curve{std::vector<double>(n), std::vector<double>(n), 0};
-    for (std::size_t i = 0; i < n; ++i) curve.weights[i] = 1 / (keys[i].deviation * keys[i].deviation);
-    std::vector<double> huber(n, 1);
-    for (int pass = 0; pass < MatchTuning::robust_passes; ++pass) {
-        std::vector<double> weights(n), pulled(n);
-        double least = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            weights[i] = curve.weights[i] * huber[i];
-            least = std::max(least, weights[i]);
-            pulled[i] = weights[i] > 0 ? weights[i] * keys[i].value : 0;
-        }
-        for (double &w : weights) w += 1e-9 * least; // so that one known value is enough
-        curve.values = equations(weights, stiffness).solve(std::move(pulled));
-        double sum = 0, known = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!(curve.weights[i] > 0)) continue;
-            const double off = std::abs(curve.values[i] - keys[i].value) / keys[i].deviation;
-            huber[i] = std::min(1.0, MatchTuning::far_deviations / std::max(off, 1e-9));
-            sum += std::min(off * off, MatchTuning::far_deviations * MatchTuning::far_deviations);
-            ++known;
-        }
-        curve.excess = sum / known;
+    std::vector<double> raised(weights.begin(), weights.end()), pulled(n);
+    const double least = 1e-9 * *std::ranges::max_element(weights); // so that one known value is enough
+    double known = MatchTuning::given_deviations;
+    for (std::size_t i = 0; i < n; ++i) {
+        raised[i] += least;
+        if (!(weights[i] > 0)) continue;
+        pulled[i] = weights[i] * keys[i].value;
+        ++known;
     }
-    for (std::size_t i = 0; i < n; ++i) curve.weights[i] *= huber[i];
+    const Banded of = equations(raised, stiffness);
+    Curve curve{stiffness, of.solve(std::move(pulled)), 1, 0};
+    const std::vector<double> &x = curve.values;
+    double squares = MatchTuning::given_deviations;
+    for (std::size_t i = 0; i < n; ++i)
+        if (weights[i] > 0) squares += weights[i] * std::pow(x[i] - keys[i].value, 2);
+    for (std::size_t t = 0; t + 2 < n; ++t)
+        squares += stiffness * std::pow(second[0] * x[t] + second[1] * x[t + 1] + second[2] * x[t + 2], 2);
+    const double free = std::max(known - 2, 1.0);
+    curve.variance = squares / free;
+    curve.unlikely = free * std::log(squares) + of.log_determinant() - (double(n) - 2) * std::log(stiffness);
     return curve;
+}
+
+// Errors have the tails of Student's t distribution, so values far from the curve hardly count.
+std::vector<double> robust_weights(std::span<const KeyedValue> keys, const Curve &curve) {
+    constexpr double tails = MatchTuning::tails;
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const double weight = 1 / (keys[i].deviation * keys[i].deviation),
+                     square = weight * std::pow(curve.values[i] - keys[i].value, 2) / curve.variance;
+        weights.push_back(weight * (tails + 1) / (tails + square));
+    }
+    return weights;
+}
+
+// The median of each value and its four neighbours, with which values that are far off are found at first.
+Curve medians(std::span<const KeyedValue> keys) {
+    Curve curve{0, std::vector<double>(keys.size()), 1, 0};
+    std::vector<double> off;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        std::vector<double> some;
+        for (std::size_t k = i < 2 ? 0 : i - 2; k < std::min(i + 3, keys.size()); ++k)
+            if (std::isfinite(keys[k].deviation)) some.push_back(keys[k].value);
+        curve.values[i] = some.empty() ? keys[i].value : median(some);
+        off.push_back(std::pow((keys[i].value - curve.values[i]) / keys[i].deviation, 2));
+    }
+    curve.variance = std::max(curve.variance, median(off));
+    return curve;
+}
+
+Curve likeliest(std::span<const KeyedValue> keys, std::span<const double> weights) {
+    const double weight = *std::ranges::max_element(weights);
+    Curve best = curve_by(keys, weights, MatchTuning::stiffest * weight);
+    for (double stiffness = best.stiffness; stiffness > MatchTuning::least_stiff * weight; stiffness /= 2) {
+        Curve next = curve_by(keys, weights, stiffness);
+        if (next.unlikely < best.unlikely) best = std::move(next);
+    }
+    return best;
 }
 
 } // namespace
 
 std::vector<KeyedValue> smooth_keys(std::span<const KeyedValue> keys) {
-    double weight = 0;
-    for (const KeyedValue &key : keys) weight = std::max(weight, 1 / (key.deviation * key.deviation));
-    double stiffness = MatchTuning::stiffest * weight;
-    Curve curve = curve_by(keys, stiffness);
-    for (; curve.excess > MatchTuning::smooth_excess && stiffness > MatchTuning::least_stiff * weight;
-         stiffness /= 2)
-        curve = curve_by(keys, stiffness);
-    for (double &w : curve.weights) w += 1e-9 * weight;
-    const Banded of = equations(curve.weights, stiffness);
+    Curve curve = medians(keys);
+    std::vector<double> weights;
+    for (int pass = 0; pass < MatchTuning::robust_passes; ++pass) {
+        weights = robust_weights(keys, curve);
+        curve = likeliest(keys, weights);
+    }
+    const double least = 1e-9 * *std::ranges::max_element(weights);
+    for (double &w : weights) w += least;
+    const Banded of = equations(weights, curve.stiffness);
     std::vector<KeyedValue> result;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         std::vector<double> one(keys.size());
         one[i] = 1;
-        const double deviation = std::sqrt(of.solve(std::move(one))[i]);
-        result.push_back({curve.values[i], std::min(deviation, keys[i].deviation)});
+        result.push_back({curve.values[i], std::sqrt(curve.variance * of.solve(std::move(one))[i])});
     }
     return result;
 }

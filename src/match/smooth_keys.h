@@ -1,8 +1,9 @@
 // Makes values that were found frame by frame smooth over the frames, as a focus puller moves.
 //
 // Minimises sum w (x - value)^2 / deviation^2 + stiffness sum (x[t-1] - 2 x[t] + x[t+1])^2 (Whittaker 1923, Henderson
-// 1924). The stiffness is the largest at which the values still lie about one deviation from the result. A value far
-// from it counts less (weights of Huber).
+// 1924). The stiffness is the most likely one (restricted maximum likelihood, as for smoothing splines: Wahba 1985), and
+// so is the factor of all deviations; the given ones count like a few values. A value far from the result hardly
+// counts (weights of Student's t distribution).
 #pragma once
 
 #include <span>
@@ -15,8 +16,8 @@ struct KeyedValue {
     double deviation = 0; // standard deviation, > 0; infinite: the value is unknown
 };
 
-// The result lies at the same frames, evenly spaced. Deviations are those of the result, not larger than before.
-// At least one value must be known.
+// The result lies at the same frames, evenly spaced. Deviations are those of the result. At least one value must be
+// known.
 std::vector<KeyedValue> smooth_keys(std::span<const KeyedValue> keys);
 
 } // namespace sparselens

@@ -65,9 +65,9 @@ struct MatchTuning {
     static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_steps = 4;
     static constexpr double finest_turn = 1.5, shape_lead = 3, least_shape_px = 6, shape_px = 8;
 
-    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight;
-    // the mean squared distance of values from the curve, in deviations; values farther away count less.
-    static constexpr double stiffest = 1e6, least_stiff = 1e-4, smooth_excess = 1, far_deviations = 3;
+    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight; how
+    // many values the given deviations count for.
+    static constexpr double stiffest = 1e6, least_stiff = 1e-4, given_deviations = 4;
     static constexpr int robust_passes = 4;
 
     // Widths to which pictures are reduced for the search and for the final fit, pixels.
@@ -85,7 +85,7 @@ struct MatchTuning {
     // How many of the best guesses of the search are refined, how many of these at the final size, and how often at
     // most.
     static constexpr std::size_t refined_guesses = 6, final_guesses = 4;
-    static constexpr int search_steps = 8, final_steps = 8, next_frame_steps = 2;
+    static constexpr int search_steps = 8, final_steps = 8, next_frame_steps = 1;
     // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
     static constexpr double softness_apart = 0.5;
     // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This

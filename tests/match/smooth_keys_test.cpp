@@ -3,12 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <random>
 
 namespace sparselens {
 namespace {
 
-double noise(int i) { return std::sin(12.9898 * i) * 1.4; } // of a deviation near 1
+// Of deviation 1, independent from frame to frame.
+double noise(int i) {
+    std::mt19937 random{std::uint32_t(i)};
+    return 3.4641 * (double(random()) / 4294967295.0 - 0.5);
+}
 
 std::vector<KeyedValue> ramp(int count, double deviation) {
     std::vector<KeyedValue> keys;
@@ -32,6 +38,29 @@ TEST(SmoothKeys, a_move_that_is_larger_than_the_noise_is_followed) {
     for (int i = 0; i < 48; ++i) keys.push_back({std::tanh((i - 24) / 4.0), 0.01});
     const std::vector<KeyedValue> smooth = smooth_keys(keys);
     for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_NEAR(smooth[i].value, keys[i].value, 0.03);
+}
+
+// As where deviations contain an error that neighbouring frames share.
+TEST(SmoothKeys, a_move_is_followed_also_if_the_deviations_are_too_large) {
+    std::vector<KeyedValue> keys;
+    for (int i = 0; i < 48; ++i) keys.push_back({std::tanh((i - 24) / 8.0) + 0.01 * noise(i), 0.2});
+    const std::vector<KeyedValue> smooth = smooth_keys(keys);
+    for (int i = 0; i < 48; ++i) {
+        EXPECT_NEAR(smooth[std::size_t(i)].value, std::tanh((i - 24) / 8.0), 0.02);
+        EXPECT_LT(smooth[std::size_t(i)].deviation, 0.1);
+    }
+}
+
+TEST(SmoothKeys, deviations_grow_where_values_differ_by_more) {
+    std::vector<KeyedValue> keys = ramp(48, 0.1);
+    for (KeyedValue &key : keys) key.deviation = 0.01;
+    EXPECT_GT(smooth_keys(keys)[24].deviation, 0.012);
+}
+
+TEST(SmoothKeys, a_few_values_keep_their_deviations) {
+    const std::vector<KeyedValue> smooth =
+        smooth_keys(std::vector<KeyedValue>{{1, 0.1}, {1.001, 0.1}, {1.002, 0.1}});
+    EXPECT_NEAR(smooth[1].deviation, 0.1 / std::sqrt(3.0), 0.03);
 }
 
 TEST(SmoothKeys, an_unknown_value_lies_between_its_neighbours_and_an_outlier_hardly_counts) {
