@@ -55,10 +55,10 @@ std::vector<LensFit> hills_of(const Comparison &pictures, std::vector<LensFit> f
 }
 
 std::vector<LensFit> refined(const Comparison &pictures, const KnownLens &known,
-                             const std::vector<BlurGuess> &guesses, int steps, double reach_px) {
+                             const std::vector<BlurGuess> &guesses, int lenses, double reach_px) {
     std::vector<LensFit> fits;
     for (const BlurGuess &guess : guesses)
-        fits.push_back(refine_lens(pictures, known, guess, steps, reach_px));
+        fits.push_back(refine_lens(pictures, known, guess, lenses, reach_px));
     return hills_of(pictures, std::move(fits));
 }
 
@@ -88,28 +88,40 @@ struct Found {
     bool is_ambiguous = false;
 };
 
+// Looks where the lens is expected. A lens that moved farther is followed.
+LensFit next_fit(const Comparison &pictures, const KnownLens &known, BlurGuess expected) {
+    LensFit fit;
+    for (int lenses = 0; lenses < MatchTuning::final_lenses; lenses += MatchTuning::next_frame_lenses) {
+        fit = measured_lens(pictures, known, expected, MatchTuning::next_frame_lenses,
+                            MatchTuning::next_reach_px);
+        if (distance(pictures, fit.guess, expected) < MatchTuning::next_reach_px) break;
+        expected = fit.guess;
+    }
+    return fit;
+}
+
 Found best_fit(const Match &match, const Reduced &fine) {
     const KnownLens known = known_lens(match, fine);
-    const MatchedLens *near = match.request.near;
-    if (near)
-        return {refine_lens(fine.pictures, known, guess_near(*near, fine), MatchTuning::next_frame_steps,
-                            MatchTuning::final_reach_px)};
+    const double reach = MatchTuning::final_reach_px;
+    if (const MatchedLens *near = match.request.near)
+        return {next_fit(fine.pictures, known, guess_near(*near, fine))};
     const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false);
     const KnownLens known_small = known_lens(match, small);
     std::vector<BlurGuess> guesses =
         guesses_of(refined(small.pictures, known_small, search_lens(small.pictures, known_small),
-                           MatchTuning::search_steps, MatchTuning::search_reach_px));
-    // One step shows which of them are worth more.
-    const double reach = MatchTuning::final_reach_px;
-    guesses = guesses_of(
-        refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()), 1, reach));
+                           MatchTuning::search_lenses, MatchTuning::search_reach_px));
+    // A few lenses show which of them are worth more.
+    guesses = guesses_of(refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()),
+                                 MatchTuning::first_lenses, reach));
     guesses.resize(std::min(guesses.size(), MatchTuning::final_guesses));
-    std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_steps, reach);
+    std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_lenses, reach);
     const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
                lead(fits.front(), other) < MatchTuning::least_lead;
     });
-    return {widened(fine.pictures, known, std::move(fits.front())), is_ambiguous};
+    const LensFit best =
+        measured_lens(fine.pictures, known, fits.front().guess, MatchTuning::final_lenses, reach);
+    return {widened(fine.pictures, known, best), is_ambiguous};
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // Finds the lens whose gathered picture is blurred as a plate is.
 //
 // The CoC is a linear function of perceptive depth P (lens/perceptive_depth.h): c(P) = coc - scale (P - middle). The
-// search compares gathered pictures over a grid of both numbers, then follows the best ones by Gauss-Newton steps,
-// whose derivatives are differences of gathered pictures.
+// search compares gathered pictures over a grid of both numbers, then goes uphill from the best ones.
 #pragma once
 
 #include "match/blocks.h"
@@ -72,13 +71,17 @@ struct LensFit {
 // The guesses that a search may begin with, the best first; no two lie on one hill.
 std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &known);
 
-// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away or nearer, in
-// at least one step.
-LensFit refine_lens(const Comparison &pictures, const KnownLens &known, BlurGuess guess, int steps,
+// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away. Compares at most so many
+// lenses. The fit has no covariance and no motion.
+LensFit refine_lens(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, int lenses,
                     double reach_px);
 
 // The sum over the blocks.
 double likelihood_of(const std::vector<BlockFit> &blocks);
+
+// The same, with the covariance and the motion.
+LensFit measured_lens(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, int lenses,
+                      double reach_px);
 
 // Widens the covariance to what the likelihood of other lenses says, and goes to a better lens among them if there is
 // one. The blocks' derivatives alone make it too narrow: they contain the noise of the gathered pictures, so the blocks

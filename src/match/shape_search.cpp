@@ -23,7 +23,7 @@ public:
         shaped.gather = [&](double coc, double scale, bool exactly) {
             return gather_(shape, coc, scale, exactly);
         };
-        return refine_lens(shaped, known_, guess, MatchTuning::shape_steps, MatchTuning::final_reach_px);
+        return refine_lens(shaped, known_, guess, MatchTuning::shape_lenses, MatchTuning::final_reach_px);
     }
 
     // How well a shape fits at this guess.
@@ -53,10 +53,14 @@ public:
         return {shape, there, likelihood(shape, there)};
     }
 
+    // Each with the lens that fits it best: the best round lens is another one.
     Candidate best_squeeze(const BlurGuess &round) const {
         Candidate best{{}, round, likelihood({}, round)};
-        for (const double squeeze : MatchTuning::squeezes)
-            keep_better(best, tried({.squeeze = squeeze}, round, {}));
+        for (const double squeeze : MatchTuning::squeezes) {
+            const ApertureShape shape{.squeeze = squeeze};
+            const LensFit fit = refined(shape, at_equal_area(round, {}, shape));
+            keep_better(best, {shape, fit.guess, fit.likelihood});
+        }
         return best;
     }
 

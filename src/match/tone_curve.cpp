@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-// A point of the curve: of some pixels of about one value, their mean and the median of the plate.
+// A point of the curve: of some pixels of about one value, their mean and what the plate has there.
 struct Point {
     double pixels = 0, from = 0, to = 0;
 };
@@ -34,8 +34,9 @@ double median_of(const Counts &counts, double pixels) {
     return (double(at) + (pixels / 2 - before) / counts[at]) / double(counts.size());
 }
 
-std::vector<Point> points_of(const std::vector<float> &plate, std::span<const std::uint8_t> usable,
-                             const std::vector<float> &shown) {
+// The medians of the plate.
+std::vector<Point> median_points(const std::vector<float> &plate, std::span<const std::uint8_t> usable,
+                                 const std::vector<float> &shown) {
     std::vector<Point> points(MatchTuning::curve_points);
     std::vector<Counts> counts(points.size());
     for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -51,6 +52,30 @@ std::vector<Point> points_of(const std::vector<float> &plate, std::span<const st
         points[at].to = median_of(counts[at], points[at].pixels);
     }
     std::erase_if(points, [](const Point &point) { return point.pixels == 0; });
+    return points;
+}
+
+// The means of the plate. A value counts for the two points beside it, so that the curve changes steadily with the
+// picture: a search climbs on what is left.
+std::vector<Point> mean_points(const std::vector<float> &plate, std::span<const float> weights,
+                               const std::vector<float> &shown) {
+    std::vector<Point> points(MatchTuning::curve_points);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (!(weights[i] > 0) || !std::isfinite(plate[i]) || !std::isfinite(shown[i])) continue;
+        const double at = std::clamp(double(shown[i]), 0.0, 1.0) * double(points.size() - 1);
+        const std::size_t before = std::min(std::size_t(at), points.size() - 2);
+        for (const std::size_t k : {before, before + 1}) {
+            const double weight = double(weights[i]) * (1 - std::abs(at - double(k)));
+            points[k].pixels += weight;
+            points[k].from += weight * double(shown[i]);
+            points[k].to += weight * double(plate[i]);
+        }
+    }
+    std::erase_if(points, [](const Point &point) { return !(point.pixels > 0); });
+    for (Point &point : points) {
+        point.from /= point.pixels;
+        point.to /= point.pixels;
+    }
     return points;
 }
 
@@ -102,11 +127,13 @@ private:
         after_{}; // [bin of values]: the first point beyond its begin
 };
 
-Colours with_curves(const Colours &plate, std::span<const std::uint8_t> usable, Colours shown) {
+// `points(k)`: of channel k.
+template <typename Points>
+Colours with_curves(Colours shown, const Points &points) {
     parallel_for(3, [&](std::size_t k) {
-        std::vector<Point> points = rising(points_of(plate.rgb[k], usable, shown.rgb[k]));
-        if (points.empty()) return;
-        const Curve curve(std::move(points));
+        std::vector<Point> some = rising(points(k));
+        if (some.empty()) return;
+        const Curve curve(std::move(some));
         parallel_ranges(shown.rgb[k].size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 shown.rgb[k][i] = float(curve.at(double(shown.rgb[k][i])));
@@ -115,9 +142,9 @@ Colours with_curves(const Colours &plate, std::span<const std::uint8_t> usable, 
     return shown;
 }
 
-// The usable pixels of the blocks that are about as near to the plate as most are.
-std::vector<std::uint8_t> alike(const Colours &plate, std::span<const std::uint8_t> usable,
-                                const Colours &shown) {
+// How much each pixel counts: hardly, in blocks that are farther from the plate than most; not, if it is not usable.
+std::vector<float> likeness(const Colours &plate, std::span<const std::uint8_t> usable,
+                            const Colours &shown) {
     const Tiles tiles(plate.grid.box(), MatchTuning::compared_block_px);
     std::vector<double> errors(tiles.count());
     for (std::size_t t = 0; t < tiles.count(); ++t) {
@@ -131,18 +158,24 @@ std::vector<std::uint8_t> alike(const Colours &plate, std::span<const std::uint8
         errors[t] = pixels > 0 ? errors[t] / pixels : std::numeric_limits<double>::infinity();
     }
     std::vector<double> sorted = errors;
-    const double most = MatchTuning::alike * median(sorted);
-    std::vector<std::uint8_t> result(usable.begin(), usable.end());
-    for (std::size_t t = 0; t < tiles.count(); ++t)
-        if (!(errors[t] <= most))
-            for_each_pixel(plate.grid, tiles.box(t), [&](std::size_t i) { result[i] = 0; });
-    return result;
+    const double alike = MatchTuning::alike * median(sorted);
+    std::vector<float> weights(usable.size());
+    for (std::size_t t = 0; t < tiles.count(); ++t) {
+        const double weight = errors[t] > 0 ? 1 / (1 + std::pow(errors[t] / alike, 4)) : 1;
+        for_each_pixel(plate.grid, tiles.box(t),
+                       [&](std::size_t i) { weights[i] = usable[i] ? float(weight) : 0; });
+    }
+    return weights;
 }
 
 } // namespace
 
 Colours with_curve_of(const Colours &plate, std::span<const std::uint8_t> usable, const Colours &shown) {
-    return with_curves(plate, alike(plate, usable, with_curves(plate, usable, shown)), shown);
+    const Colours about =
+        with_curves(shown, [&](std::size_t k) { return median_points(plate.rgb[k], usable, shown.rgb[k]); });
+    const std::vector<float> weights = likeness(plate, usable, about);
+    return with_curves(shown,
+                       [&](std::size_t k) { return mean_points(plate.rgb[k], weights, shown.rgb[k]); });
 }
 
 } // namespace sparselens

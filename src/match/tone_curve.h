@@ -9,9 +9,9 @@
 
 namespace sparselens {
 
-// Gives the tone-mapped picture the curve at which each of its channels is nearest to that of the plate: the median
+// Gives the tone-mapped picture the curve at which each of its channels is nearest to that of the plate: the mean
 // of the plate over the pixels of about one value, made rising (isotonic regression, Ayer et al. 1955). Blocks that
-// differ much more than most, such as those of an actor, do not count. `usable`: [pixel], 0: not compared.
+// differ much more than most, such as those of an actor, hardly count. `usable`: [pixel], 0: not compared.
 Colours with_curve_of(const Colours &plate, std::span<const std::uint8_t> usable, const Colours &shown);
 
 } // namespace sparselens

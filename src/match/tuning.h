@@ -58,11 +58,11 @@ struct MatchTuning {
     static constexpr double joint_blocks = 2, gather_coc_px = 0.1, gather_share = 0.03;
 
     // The shape of the lens (shape_search.h): the squeezes of anamorphic lenses; blades; how many rotations of each
-    // number of blades, and the finest turn, degrees; steps of each refinement; by how many deviations a shape must fit
+    // number of blades, and the finest turn, degrees; lenses of each refinement; by how many deviations a shape must fit
     // better than a simpler one; the least CoC of the plate that shows a shape, and the CoC to which it is reduced,
     // pixels.
     static constexpr std::array<double, 6> squeezes{1.25, 1.33, 1.5, 1.65, 1.8, 2};
-    static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_steps = 4;
+    static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_lenses = 20;
     static constexpr double finest_turn = 1.5, shape_lead = 3, least_shape_px = 6, shape_px = 8;
 
     // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight; how
@@ -82,18 +82,18 @@ struct MatchTuning {
     // Lens points of the gathered pictures: of the search, and of its best guesses. The final fit of a first frame has
     // final quality, that of a next frame normal quality, whose noise passes for softness: the lens is 2 % smaller.
     static constexpr int search_points = 32, refine_points = 64;
-    // How many of the best guesses of the search are refined, how many of these at the final size, and how often at
-    // most.
+    // How many of the best guesses of the search are refined, and how many of these at the final size.
     static constexpr std::size_t refined_guesses = 6, final_guesses = 4;
-    static constexpr int search_steps = 8, final_steps = 8, next_frame_steps = 1;
+    // How many lenses these compare at most: in the search; at the final size, to see which are worth more; then; and for
+    // a next frame.
+    static constexpr int search_lenses = 30, first_lenses = 8, final_lenses = 40, next_frame_lenses = 8;
     // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
     static constexpr double softness_apart = 0.5;
-    // How far from the best guess others are compared, pixels of CoC, at first: in the search, and in the final fit. This
-    // reach halves after a step that is shorter than a share of it, down to `settled_px`; there a step shorter than
-    // `gather_coc_px` ends the fit. The longest step, and the longest multiple of a step: on plates of scales and macro
-    // steps were 3 to 5 times too short.
-    static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, settled_px = 0.3, same_reach = 0.75,
-                            farthest_px = 3, longest_share = 8;
+    // How far from the best lens others are compared, pixels of CoC, at first: in the search, in the final fit, and for a
+    // next frame; the most, and the least. A quadratic function fits lenses within so many reaches. Lenses this share of the reach apart
+    // are the same.
+    static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, next_reach_px = 0.3,
+                            farthest_px = 3, settled_px = 0.15, model_reaches = 2.1, new_share = 0.125;
     // The step of the softness's variance for its derivative, and its range, square pixels. It is negative where a plate
     // is sharper than the gathered picture, which the warp of the views softens a little.
     static constexpr double softness_step = 0.2, least_softness = -0.4, most_softness = 9;

@@ -43,6 +43,26 @@ TEST(ToneCurve, other_content_over_a_third_hardly_counts) {
             ASSERT_NEAR(curved.rgb[k][i], plain.rgb[k][i], 0.02) << k << ", " << i;
 }
 
+// A search climbs on what the curve leaves, so a picture that changes a little must get a curve that changes a little.
+TEST(ToneCurve, it_changes_steadily_with_the_picture) {
+    const Colours shown = test::waves(96, 64);
+    Colours plate = filmed(shown);
+    for (std::vector<float> &plane : plate.rgb)
+        for (float &v : plane) v = std::round(v * 255) / 255; // as in a JPEG
+    const auto curved = [&](float by) {
+        Colours other = shown;
+        for (std::vector<float> &plane : other.rgb)
+            for (float &v : plane) v += by * v * (1 - v);
+        return with_curve_of(plate, test::all_usable(shown.grid), other);
+    };
+    for (int step = 0; step < 20; ++step) {
+        const Colours a = curved(0.002f * float(step)), b = curved(0.002f * float(step + 1));
+        double squares = 0;
+        for (std::size_t i = 0; i < shown.grid.size(); ++i) squares += std::pow(a.rgb[1][i] - b.rgb[1][i], 2);
+        EXPECT_LT(std::sqrt(squares / double(shown.grid.size())), 0.001) << step;
+    }
+}
+
 TEST(ToneCurve, it_never_falls) {
     const Colours shown = test::waves(64, 64),
                   other = test::waves(64, 64, [](double, double) { return -1.0; });
