@@ -26,6 +26,17 @@ vk::raii::Instance make_instance(const vk::raii::Context &loader, bool validate)
     return {loader, create};
 }
 
+// Keeps the drivers loaded until the process ends. Each time NVIDIA's driver is loaded again, it takes memory of the
+// threads (static TLS) that is not given back, so a process that opens devices again and again would lose it: on an
+// H100, after about 40 times. It never ends, because a driver may end before static objects do.
+void keep_drivers() {
+    struct Drivers {
+        vk::raii::Context loader;
+        vk::raii::Instance instance = make_instance(loader, false);
+    };
+    [[maybe_unused]] static const auto *const kept = new Drivers;
+}
+
 Kind kind_of(vk::PhysicalDeviceType type) {
     switch (type) {
     case vk::PhysicalDeviceType::eDiscreteGpu: return Kind::discrete;
@@ -57,6 +68,7 @@ std::string lacks(const vk::raii::PhysicalDevice &device, std::uint32_t version)
 
 VulkanInstance::VulkanInstance(const std::function<void(const std::string &)> *message)
     : instance(make_instance(loader, message != nullptr)) {
+    keep_drivers();
     if (!message) return;
     // Uses the C structure, because the type of the callback has changed in Vulkan-Hpp's.
     VkDebugUtilsMessengerCreateInfoEXT create{};

@@ -184,9 +184,7 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     Watch small = watch();
     small.largest_buffer = 1 << 21;
     device = open_gather_device(*info, small);
-    const LensGatherOptions options{.lens_samples = 8, .device = device.get()};
-    EXPECT_EQ(gather(ldi, options).values, gather(ldi, {.lens_samples = 8}).values);
-    EXPECT_EQ(device->take_report().on_cpu, Tiles());
+    expect_same(ldi, {.lens_samples = 8});
     small.largest_buffer = 1 << 12;
     const auto tiny = open_gather_device(*info, small);
     EXPECT_EQ(gather(ldi, {.lens_samples = 8, .device = tiny.get()}).values,
@@ -282,7 +280,7 @@ TEST_F(LensDeviceTest, AFailureLosesNothing) {
         result = with;
         device = open_gather_device(*info, failing);
         const Image image = gather(ldi, {.lens_samples = 8, .device = device.get()});
-        EXPECT_EQ(image.values, expected.values) << at;
+        EXPECT_LE(largest_difference(image, expected), at == 0 ? 1e-6 : 0) << at;
         const TileReport did = device->take_report();
         EXPECT_EQ(did.failure.empty(), at == 0);
         EXPECT_EQ(did.on_device == 0, at != 0);
