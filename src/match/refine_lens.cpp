@@ -14,10 +14,9 @@ namespace sparselens {
 
 namespace {
 
-// Goes to the best place of the quadratic function that fits the likelihoods around the best lens so far. Its
-// reach shrinks when that is no better (a trust region). Derivatives of pictures would lead astray: noise of
-// gathered pictures makes steps too short, above all along the ridge on which a narrower lens is about as likely as a
-// softer plate.
+// Goes to the best place of the quadratic function that fits the likelihoods around the best lens so far. Its reach
+// shrinks when that is no better (a trust region). Derivatives of pictures would lead astray: noise of gathered pictures
+// makes steps too short, above all along the ridge on which a narrower lens is about as likely as a softer plate.
 class Refining {
 public:
     Refining(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, double reach)
