@@ -11,7 +11,7 @@ struct LikelyLens {
     Colours linear, shown; // its picture: as gathered, and as the plate shows it
 };
 
-// Of an allowed guess.
+// The picture of the nearest guess that is allowed.
 LikelyLens compared(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess);
 
 // The same, with the softness that fits best, which needs no other gathered picture.

@@ -44,7 +44,12 @@ public:
                 shown.push_back(as_plate(pictures_, one.linear, best().guess.softness));
             }
         const Quadratic model(places, place_of(best().guess), reach_);
-        return {slope(model.shares(1), shown), slope(model.shares(2), shown)};
+        const std::span<const double> by_coc = model.shares(1);
+        std::vector<double> by_ends(model.shares(2).begin(), model.shares(2).end());
+        if (known_.focus) // the CoC at the middle depth changes with the radius
+            for (std::size_t p = 0; p < by_ends.size(); ++p)
+                by_ends[p] += (*known_.focus - pictures_.middle) / half_range(pictures_) * by_coc[p];
+        return {slope(by_coc, shown), slope(by_ends, shown)};
     }
 
 private:
@@ -88,9 +93,8 @@ private:
         const Place middle = place_of(best().guess);
         BlurGuess farthest;
         double most = 0;
-        constexpr int directions = 8;
-        for (int i = 0; i < directions; ++i) {
-            const double angle = 2 * std::numbers::pi * i / directions;
+        for (int i = 0; i < 8; ++i) {
+            const double angle = std::numbers::pi / 4 * i;
             const BlurGuess there =
                 guess_at({middle.x + reach_ * std::cos(angle), middle.y + reach_ * std::sin(angle)});
             if (const double far = to_nearest(there); far > most) {

@@ -106,6 +106,15 @@ TEST(LensSearch, compares_no_more_lenses_than_it_may) {
     EXPECT_EQ(count, 7);
 }
 
+// At a known focus beyond all depths, the CoC changes everywhere with the radius.
+TEST(LensSearch, a_known_focus_makes_the_radius_more_certain) {
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 4, 0.4)), 0.02f);
+    const BlurGuess guess{4, 0.4, 0.15};
+    const LensFit free = measured_lens(pictures, {}, guess, 8, 0.3),
+                  known = measured_lens(pictures, {.focus = pictures.middle + 10}, guess, 8, 0.3);
+    EXPECT_LT(known.covariance.scale, free.covariance.scale);
+}
+
 TEST(LensSearch, the_interval_is_as_wide_as_other_lenses_fit) {
     const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
     const LensFit narrow = measured_lens(pictures, {}, {1, 0.7, 0.15}, 8, 0.75),

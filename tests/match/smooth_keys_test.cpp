@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-// Of deviation 1, independent from frame to frame.
+// Its deviation is 1, independent from frame to frame.
 double noise(int i) {
     std::mt19937 random{std::uint32_t(i)};
     return 3.4641 * (double(random()) / 4294967295.0 - 0.5);

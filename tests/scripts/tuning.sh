@@ -63,7 +63,8 @@ warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
 match/blocks.cpp first_tint nuisances
 match/blocks.h most_changes
-match/refine_lens.cpp coc_change first_motion ends_change softness_change
+match/measure_lens.cpp coc_change ends_change first_motion
+match/quadratic.h quadratic_terms
 match/smooth_keys.cpp second
 finish/cells.h run_length
 finish/classes.cpp bins
