@@ -33,12 +33,11 @@ public:
         return likelihood_of(fit_blocks(pictures_.plate, pictures_.usable, shown, {}));
     }
 
-    // The guess with the radius at which `to` has the area that `from` has.
+    // The guess with the CoC at which `to` has the area that `from` has, and the radius, if it is not known.
     BlurGuess at_equal_area(BlurGuess guess, const ApertureShape &from, const ApertureShape &to) const {
-        if (known_.scale) return guess;
         const double factor = std::sqrt(area_of(from) / area_of(to));
         guess.coc *= factor;
-        guess.scale *= factor;
+        if (!known_.scale) guess.scale *= factor;
         return guess;
     }
 

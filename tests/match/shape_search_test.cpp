@@ -53,8 +53,9 @@ Colours lamps(const ApertureShape &shape, double coc, double scale) {
     return result;
 }
 
-ShapeFit found(const ApertureShape &hidden) {
-    constexpr double scale = 0.8, coc = 6;
+constexpr double scale = 0.8, coc = 6;
+
+ShapeFit found(const ApertureShape &hidden, const KnownLens &known = {}) {
     Comparison pictures;
     pictures.colours = tone_mapped(lamps(hidden, coc, scale));
     pictures.plate = brightness(pictures.colours);
@@ -63,7 +64,7 @@ ShapeFit found(const ApertureShape &hidden) {
     const double factor = std::sqrt(area_of(hidden));
     return find_shape(pictures,
                       [](const ApertureShape &shape, double c, double s, bool) { return lamps(shape, c, s); },
-                      {}, {coc * factor, scale * factor, 0});
+                      known, {coc * factor, known.scale.value_or(scale * factor), 0});
 }
 
 TEST(ShapeSearch, TellsSixBladesFromADisc) {
@@ -85,6 +86,13 @@ TEST(ShapeSearch, TellsSqueeze) {
     EXPECT_EQ(squeezed.shape.squeeze, 2);
     // The lamps lie at depths of 2 to 4.
     EXPECT_NEAR(squeezed.fit.guess.coc - squeezed.fit.guess.scale * (3 - 7), 6 + 0.8 * 4, 0.2);
+}
+
+TEST(ShapeSearch, TellsSqueezeAtAKnownRadius) {
+    const ShapeFit squeezed = found({.squeeze = 2}, {.scale = scale});
+    EXPECT_EQ(squeezed.shape.squeeze, 2);
+    EXPECT_EQ(squeezed.fit.guess.scale, scale);
+    EXPECT_NEAR(squeezed.fit.guess.coc, coc, 0.3);
 }
 
 TEST(ShapeSearch, AreasAreThoseOfPolygons) {
