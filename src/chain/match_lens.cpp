@@ -119,6 +119,7 @@ Found best_fit(const Match &match, const Reduced &fine) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
                lead(fits.front(), other) < MatchTuning::least_lead;
     });
+    // The search begins again at the best of them, because it can end too early where the likelihood is ragged.
     const LensFit best =
         measured_lens(fine.pictures, known, fits.front().guess, MatchTuning::final_lenses, reach);
     return {widened(fine.pictures, known, best), is_ambiguous};

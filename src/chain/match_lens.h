@@ -19,8 +19,8 @@ struct MatchedValue {
     double value = 0, low = 0, high = 0;
 };
 
-// A standard deviation: the part that differs from frame to frame, and the error of gathered pictures, which neighbouring
-// frames share.
+// A standard deviation, in two parts: one that is independent in each frame, and the error of gathered pictures, which
+// all frames share.
 struct MatchedDeviation {
     double own = 0, shared = 0;
     double both() const { return std::hypot(own, shared); }

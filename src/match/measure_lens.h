@@ -1,12 +1,12 @@
-// What a plate says about a lens that fits it: how certain it is, and how the plate is blurred by motion.
+// Measures how certain the values of a fitted lens are, and by how much motion blurs the plate.
 #pragma once
 
 #include "match/likely_lens.h"
 
 namespace sparselens {
 
-// How the picture of a lens changes, per pixel: with the CoC at the middle depth, and with that at the ends of the range
-// of depths.
+// How each pixel of a lens's picture changes with the CoC at the middle depth, and with the CoC at the ends of the
+// range of depths.
 struct Slopes {
     Colours by_coc, by_ends;
 };

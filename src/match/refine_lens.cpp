@@ -14,9 +14,10 @@ namespace sparselens {
 
 namespace {
 
-// Goes to the best place of the quadratic function that fits the likelihoods around the best lens so far. Its reach
-// shrinks when that is no better (a trust region). Derivatives of pictures would lead astray: noise of gathered pictures
-// makes steps too short, above all along the ridge on which a narrower lens is about as likely as a softer plate.
+// Searches for the likeliest lens: fits a quadratic function to the likelihoods of the lenses within reach of the best
+// one so far, and compares the lens at which this function is highest. If that is no better, the reach is halved (a
+// trust region). The derivatives of pictures are not used: noise of gathered pictures makes their steps too short,
+// above all along the ridge on which a narrower lens is about as likely as a softer plate.
 class Refining {
 public:
     Refining(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, double reach)

@@ -70,19 +70,25 @@ struct Curve {
     double unlikely = 0; // -2 times the logarithm of the likelihood, but for a constant
 };
 
+// Unknown values, whose weight is 0, get a little weight, so that one known value is enough.
+std::vector<double> raised(std::span<const double> weights) {
+    std::vector<double> result(weights.begin(), weights.end());
+    const double least = 1e-9 * *std::ranges::max_element(weights);
+    for (double &w : result) w += least;
+    return result;
+}
+
 // `weights`: 0 where a value is unknown.
 Curve curve_by(std::span<const KeyedValue> keys, std::span<const double> weights, double stiffness) {
     const std::size_t n = keys.size();
-    std::vector<double> raised(weights.begin(), weights.end()), pulled(n);
-    const double least = 1e-9 * *std::ranges::max_element(weights); // so that one known value is enough
+    std::vector<double> pulled(n);
     double known = MatchTuning::given_deviations;
     for (std::size_t i = 0; i < n; ++i) {
-        raised[i] += least;
         if (!(weights[i] > 0)) continue;
         pulled[i] = weights[i] * keys[i].value;
         ++known;
     }
-    const Banded of = equations(raised, stiffness);
+    const Banded of = equations(raised(weights), stiffness);
     Curve curve{stiffness, of.solve(std::move(pulled)), 1, 0};
     const std::vector<double> &x = curve.values;
     double squares = MatchTuning::given_deviations;
@@ -142,9 +148,7 @@ std::vector<KeyedValue> smooth_keys(std::span<const KeyedValue> keys) {
         weights = robust_weights(keys, curve);
         curve = likeliest(keys, weights);
     }
-    const double least = 1e-9 * *std::ranges::max_element(weights);
-    for (double &w : weights) w += least;
-    const Banded of = equations(weights, curve.stiffness);
+    const Banded of = equations(raised(weights), curve.stiffness);
     std::vector<KeyedValue> result;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         std::vector<double> one(keys.size());

@@ -1,9 +1,9 @@
 // Makes values that were found frame by frame smooth over the frames, as a focus puller moves.
 //
 // Minimises sum w (x - value)^2 / deviation^2 + stiffness sum (x[t-1] - 2 x[t] + x[t+1])^2 (Whittaker 1923, Henderson
-// 1924). The stiffness is the most likely one (restricted maximum likelihood, as for smoothing splines: Wahba 1985), and
-// so is the factor of all deviations; the given ones count like a few values. A value far from the result hardly
-// counts (weights of Student's t distribution).
+// 1924). The stiffness is the most likely one (restricted maximum likelihood, as for smoothing splines: Wahba 1985).
+// All deviations are multiplied by their most likely factor; the given ones count like a few values. A value far from
+// the result hardly counts (weights of Student's t distribution).
 #pragma once
 
 #include <span>

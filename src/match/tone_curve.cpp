@@ -55,8 +55,8 @@ std::vector<Point> median_points(const std::vector<float> &plate, std::span<cons
     return points;
 }
 
-// The means of the plate. A value counts for the two points beside it, so that the curve changes steadily with the
-// picture: a search climbs on what is left.
+// The means of the plate. A value counts for the two points beside it, so the curve changes steadily with the picture.
+// Otherwise the likelihood would be ragged, and a search would end anywhere.
 std::vector<Point> mean_points(const std::vector<float> &plate, std::span<const float> weights,
                                const std::vector<float> &shown) {
     std::vector<Point> points(MatchTuning::curve_points);
@@ -142,7 +142,7 @@ Colours with_curves(Colours shown, const Points &points) {
     return shown;
 }
 
-// How much each pixel counts: hardly, in blocks that are farther from the plate than most; not, if it is not usable.
+// The weight of each pixel: small in blocks that are farther from the plate than most blocks, 0 if it is not usable.
 std::vector<float> likeness(const Colours &plate, std::span<const std::uint8_t> usable,
                             const Colours &shown) {
     const Tiles tiles(plate.grid.box(), MatchTuning::compared_block_px);

@@ -58,15 +58,15 @@ struct MatchTuning {
     static constexpr double joint_blocks = 2, gather_coc_px = 0.1, gather_share = 0.03;
 
     // The shape of the lens (shape_search.h): the squeezes of anamorphic lenses; blades; how many rotations of each
-    // number of blades, and the finest turn, degrees; lenses of each refinement; by how many deviations a shape must fit
-    // better than a simpler one; the least CoC of the plate that shows a shape, and the CoC to which it is reduced,
-    // pixels.
+    // number of blades, and the finest turn, degrees; how many lenses a refinement compares; by how many deviations a
+    // shape must fit better than a simpler one; the least CoC of the plate that shows a shape, and the CoC to which it
+    // is reduced, pixels.
     static constexpr std::array<double, 6> squeezes{1.25, 1.33, 1.5, 1.65, 1.8, 2};
     static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_lenses = 20;
     static constexpr double finest_turn = 1.5, shape_lead = 3, least_shape_px = 6, shape_px = 8;
 
-    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight; how
-    // many values the given deviations count for.
+    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight;
+    // the number of values like which the given deviations count.
     static constexpr double stiffest = 1e6, least_stiff = 1e-4, given_deviations = 4;
     static constexpr int robust_passes = 4;
 
@@ -84,14 +84,15 @@ struct MatchTuning {
     static constexpr int search_points = 32, refine_points = 64;
     // How many of the best guesses of the search are refined, and how many of these at the final size.
     static constexpr std::size_t refined_guesses = 6, final_guesses = 4;
-    // How many lenses these compare at most: in the search; at the final size, to see which are worth more; then; and for
-    // a next frame.
+    // How many lenses are compared at most for each of them: in the search; at the final size, to find out which guesses
+    // are worth more; in the final fit; for a next frame.
     static constexpr int search_lenses = 30, first_lenses = 8, final_lenses = 40, next_frame_lenses = 8;
     // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
     static constexpr double softness_apart = 0.5;
-    // How far from the best lens others are compared, pixels of CoC, at first: in the search, in the final fit, and for a
-    // next frame; the most, and the least. A quadratic function fits lenses within so many reaches. Lenses this share of the reach apart
-    // are the same.
+    // The reach, pixels of CoC: how far from the best lens others are compared. The first three are its values at the
+    // beginning of the search, of the final fit and of the fit of a next frame; then its largest value, and the value
+    // below which a search ends. A quadratic function is fitted to the lenses within `model_reaches` times the reach.
+    // Lenses nearer than `new_share` of it are the same.
     static constexpr double search_reach_px = 1.5, final_reach_px = 0.75, next_reach_px = 0.3,
                             farthest_px = 3, settled_px = 0.15, model_reaches = 2.1, new_share = 0.125;
     // The step of the softness's variance for its derivative, and its range, square pixels. It is negative where a plate

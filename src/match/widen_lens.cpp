@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace sparselens {
 
@@ -42,7 +41,7 @@ private:
             BlurGuess guess = fit_.guess;
             guess.coc += side * away * axis.coc;
             guess.scale += side * away * axis.ends / range;
-            LikelyLens there = softest(pictures_, {}, guess);
+            const LikelyLens there = softest(pictures_, {}, guess);
             const double apart =
                 std::hypot(there.guess.coc - fit_.guess.coc, range * (there.guess.scale - fit_.guess.scale));
             if (apart < away / 2) break;

@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-// Its deviation is 1, independent from frame to frame.
+// The values have a deviation of 1 and are independent.
 double noise(int i) {
     std::mt19937 random{std::uint32_t(i)};
     return 3.4641 * (double(random()) / 4294967295.0 - 0.5);
@@ -40,7 +40,7 @@ TEST(SmoothKeys, a_move_that_is_larger_than_the_noise_is_followed) {
     for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_NEAR(smooth[i].value, keys[i].value, 0.03);
 }
 
-// As where deviations contain an error that neighbouring frames share.
+// Deviations are too large where they contain an error that all frames share.
 TEST(SmoothKeys, a_move_is_followed_also_if_the_deviations_are_too_large) {
     std::vector<KeyedValue> keys;
     for (int i = 0; i < 48; ++i) keys.push_back({std::tanh((i - 24) / 8.0) + 0.01 * noise(i), 0.2});

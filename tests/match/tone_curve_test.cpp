@@ -43,7 +43,7 @@ TEST(ToneCurve, other_content_over_a_third_hardly_counts) {
             ASSERT_NEAR(curved.rgb[k][i], plain.rgb[k][i], 0.02) << k << ", " << i;
 }
 
-// A search climbs on what the curve leaves, so a picture that changes a little must get a curve that changes a little.
+// A search compares pictures that differ a little. Their curves must differ a little, too.
 TEST(ToneCurve, it_changes_steadily_with_the_picture) {
     const Colours shown = test::waves(96, 64);
     Colours plate = filmed(shown);
