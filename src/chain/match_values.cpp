@@ -11,9 +11,8 @@ namespace sparselens {
 
 void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit) {
     const auto &[coc, scale, softness] = fit.guess;
-    const auto own = [](double variance) {
-        return MatchTuning::joint_blocks * std::sqrt(std::max(variance, 0.0));
-    };
+    const auto own = [](double variance) { return std::sqrt(std::max(variance, 0.0)); };
+    const auto error = match.request.near ? MatchTuning::next_frame_error : MatchTuning::first_frame_error;
     const double focus = in.pictures.middle + coc / scale;
     // The variance of middle + coc / scale.
     const double by_coc = 1 / scale, by_scale = -coc / (scale * scale);
@@ -25,12 +24,10 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     };
     const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
     of.largest_coc = in.by() * largest;
-    of.coc_deviation = in.by() * std::hypot(own(c.coc), MatchTuning::gather_coc_px);
-    of.focus_deviation = {own(focus_variance) / in.depth_scale(),
-                          MatchTuning::gather_coc_px / scale / in.depth_scale()};
-    of.radius_deviation = {
-        own(c.scale / (scale * scale)),
-        std::hypot(MatchTuning::gather_share, MatchTuning::gather_coc_px / std::max(largest, 1e-6))};
+    of.coc_deviation = in.by() * std::hypot(own(c.coc), error.coc_px);
+    of.focus_deviation = {own(focus_variance) / in.depth_scale(), error.coc_px / scale / in.depth_scale()};
+    of.radius_deviation = {own(c.scale / (scale * scale)),
+                           std::hypot(error.share, error.coc_px / std::max(largest, 1e-6))};
     if (match.request.fit == MatchFit::fstop) of.focus_deviation = {};
     if (match.request.fit == MatchFit::focus) of.radius_deviation = {};
     of.softness = std::sqrt(std::max(softness, 0.0)) * in.by();
