@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
+#include "warp/sight.h"
 #include "warp/tuning.h"
 
 #include <algorithm>
@@ -15,77 +16,7 @@ namespace sparselens {
 namespace {
 
 // Pixels: how far a lens point moves a solid relative to its sample, plus the margin.
-constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::solid_margin;
-
-// 1 / z of the farthest thing that a pixel shows; 0: it lets light through to infinity.
-float farthest_in(const ViewSamples &view, std::size_t alpha, std::size_t pixel) {
-    double left = 1;
-    float farthest = 0;
-    for (const std::uint64_t i : view.pixel(pixel)) {
-        left *= 1 - double(alpha_at(view, alpha, i));
-        farthest = 1 / view.z(i);
-    }
-    return lets_through(left) ? 0 : farthest;
-}
-
-// Returns the least value in a square around each pixel: along rows, then across them, a row at a time.
-std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius) {
-    const auto width = std::size_t(grid.width()), height = std::size_t(grid.height()),
-               r = std::size_t(radius);
-    std::vector<float> along_rows = values, least(values.size());
-    const auto lower = [](float *to, const float *by, std::size_t count) {
-        for (std::size_t x = 0; x < count; ++x) to[x] = std::min(to[x], by[x]);
-    };
-    parallel_for(height, [&](std::size_t y) {
-        const float *from = &values[y * width];
-        float *to = &along_rows[y * width];
-        for (std::size_t n = 1; n <= std::min(r, width - 1); ++n) {
-            lower(to, from + n, width - n);
-            lower(to + n, from, width - n);
-        }
-    });
-    parallel_for(height, [&](std::size_t y) {
-        std::copy_n(&along_rows[y * width], width, &least[y * width]);
-        for (std::size_t n = y - std::min(r, y); n <= std::min(y + r, height - 1); ++n)
-            lower(&least[y * width], &along_rows[n * width], width);
-    });
-    return least;
-}
-
-// The farthest depth in each pixel of a view.
-std::vector<float> farthest_in(const ViewSamples &view) {
-    std::vector<float> farthest(view.windows.pixels());
-    const std::size_t alpha = view.alpha();
-    parallel_ranges(farthest.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) farthest[p] = farthest_in(view, alpha, p);
-    });
-    return farthest;
-}
-
-// Looks up values of a view by position.
-class Sight {
-public:
-    Sight(const ViewSamples &view, std::vector<float> values)
-        : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
-
-    // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
-    std::optional<float> at(const Imath::V2d &place) const {
-        if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
-        const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
-        if (grid_.contains(pixel.x, pixel.y)) return values_[grid_.index(pixel.x, pixel.y)];
-        return display_.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
-    }
-
-private:
-    Imath::Box2i display_;
-    Grid grid_;
-    std::vector<float> values_;
-};
-
-// 1 / z of the farthest thing in a pixel and in those around it.
-Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {
-    return {view, least_around(farthest, Grid(view.windows.data), WarpTuning::solid_margin)};
-}
+constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::sight_margin;
 
 // By how much the largest and the least 1 / z within reach differ.
 Sight relief_around(const ViewSamples &view, std::vector<float> farthest) {
