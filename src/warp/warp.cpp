@@ -7,6 +7,7 @@
 #include "lens/perceptive_depth.h"
 #include "view/resolve_lens.h"
 #include "warp/balance.h"
+#include "warp/continue_surfaces.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
@@ -239,6 +240,7 @@ Ldi Warper::run(Progress &progress) {
     if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     views_.forget_colours();
+    if (averages() && options_.continue_surfaces) continue_surfaces(placed(), scale_, ldi);
     find_solids(placed(), scale_, ldi);
     return ldi;
 }

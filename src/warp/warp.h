@@ -1,8 +1,8 @@
 // From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
-// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface. Samples seen past it
-// may fill it up (opaque_pixels.h). Two samples belong to the same surface if their perceptive depths R F / z differ by
-// less than `surface_px` pixels.
+// A sample is a pixel of some view, or an average of pixels of one surface. Samples seen past it may fill it up
+// (opaque_pixels.h), and surfaces continue a little behind nearer ones (continue_surfaces.h). Two samples belong to the
+// same surface if their perceptive depths R F / z differ by less than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"
@@ -38,6 +38,8 @@ struct WarpOptions {
     bool test_photo_consistency = true;
     // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/show_images.h).
     bool find_images = true;
+    // With Merge::average: surfaces continue behind nearer ones (continue_surfaces.h).
+    bool continue_surfaces = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
     int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
     WarpDevice *device = nullptr; // if given, works on the rows that it can

@@ -28,7 +28,8 @@ const Windows picture = windows_of_size(width, height);
 
 Ldi warped(const std::vector<View> &views, Merge merge) {
     Progress silent;
-    return warp(views, {.focal_px = focal_px, .radius = radius, .merge = merge}, silent);
+    return warp(views, {.focal_px = focal_px, .radius = radius, .merge = merge, .continue_surfaces = false},
+                silent);
 }
 
 // Stripes before a wall. Colours are linear in position, so that the mean of samples shows the colour at their mean
