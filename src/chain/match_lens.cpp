@@ -100,8 +100,24 @@ LensFit next_fit(const Comparison &pictures, const KnownLens &known, BlurGuess e
     return fit;
 }
 
+// Whether the plate is not all one colour.
+bool shows_something(const Comparison &pictures) {
+    float least = infinite, most = -infinite;
+    for (std::size_t i = 0; i < pictures.usable.size(); ++i)
+        if (pictures.usable[i]) {
+            least = std::min(least, pictures.plate.values[i]);
+            most = std::max(most, pictures.plate.values[i]);
+        }
+    return double(most - least) > MatchTuning::least_error;
+}
+
 Found best_fit(const Match &match, const Reduced &fine) {
     const KnownLens known = known_lens(match, fine);
+    if (!shows_something(fine.pictures)) { // it would fit any lens
+        LensFit any;
+        any.shown = fine.pictures.colours;
+        return {any};
+    }
     const double reach = MatchTuning::final_reach_px;
     if (const MatchedLens *near = match.request.near)
         return {next_fit(fine.pictures, known, guess_near(*near, fine))};

@@ -174,8 +174,8 @@ TEST(MergeLayers, SamplesThatAreReducedFirstMakeTheSamePicture) {
 // The bound of lab/results/techniques.md, which decides whether layers are merged at all.
 TEST(MergeLayers, DenseScenesLookTheSame) {
     for (const DeepScene &scene : deep_scenes()) {
-        const Ldi ldi = tidy(scene.make(64, 48));
-        const ThinLens lens = resolve_lens(deep_scene_camera(64), ldi.windows);
+        const Ldi ldi = tidy(scene.make(32, 24));
+        const ThinLens lens = resolve_lens(deep_scene_camera(32), ldi.windows);
         Progress silent;
         const auto picture = [&](double tolerance) {
             PictureOptions options;
