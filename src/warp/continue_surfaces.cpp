@@ -99,7 +99,7 @@ public:
             before = found.value_or(before);
             const Imath::V2i at = run.end + n * run.step;
             const double depth = 2 * end - depth_of(before);
-            if (!is_hidden(at, depth, n)) return n - 1;
+            if (!is_between(at, depth, n)) return n - 1;
             const Hidden hidden{
                 ldi_.windows.index(at.x, at.y), n, depth, {run.sample, lamps_[before] ? run.sample : before}};
             if (!visit(hidden)) return n - 1;
@@ -126,11 +126,14 @@ private:
             }
         return nearest;
     }
-    // Whether something hides a surface n pixels after its end, and a lens point may look there.
-    bool is_hidden(const Imath::V2i &at, double depth, int n) const {
+    // Whether a surface lies, n pixels after its end, between something nearer and something farther, and a lens point
+    // may look there.
+    bool is_between(const Imath::V2i &at, double depth, int n) const {
         if (!(depth > 0) || !frame_.intersects(at) || surface_at(at, depth)) return false;
-        double nearer = 0;
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
+        const SampleRange there = ldi_.pixel(ldi_.windows.index(at.x, at.y));
+        if (there.empty() || depth_of(there.to - 1) >= depth) return false;
+        double nearer = 0; // by how much the farthest sample before it is nearer
+        for (const std::uint64_t i : there)
             if (covers(i) && depth_of(i) > depth) nearer = depth_of(i) - depth;
         return double(n - 1) < std::numbers::sqrt2 * nearer;
     }

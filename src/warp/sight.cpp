@@ -5,7 +5,6 @@
 #include "warp/tuning.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sparselens {
 
@@ -54,13 +53,6 @@ std::vector<float> least_around(const std::vector<float> &values, const Grid &gr
             lower(&least[y * width], &along_rows[n * width], width);
     });
     return least;
-}
-
-std::optional<float> Sight::at(const Imath::V2d &place) const {
-    if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
-    const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
-    if (grid_.contains(pixel.x, pixel.y)) return values_[grid_.index(pixel.x, pixel.y)];
-    return display_.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
 }
 
 Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {

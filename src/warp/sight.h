@@ -6,7 +6,9 @@
 
 #include <Imath/ImathVec.h>
 
+#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -24,7 +26,12 @@ public:
         : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
 
     // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
-    std::optional<float> at(const Imath::V2d &place) const;
+    std::optional<float> at(const Imath::V2d &place) const {
+        if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
+        const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
+        if (grid_.contains(pixel.x, pixel.y)) return values_[grid_.index(pixel.x, pixel.y)];
+        return display_.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
+    }
 
 private:
     Imath::Box2i display_;

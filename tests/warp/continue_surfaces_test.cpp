@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -18,20 +19,23 @@ const Windows windows = windows_of_size(96, 96);
 constexpr int row = 48;
 
 // The plate covers what is left of `plate_ends`, the board lies between `board_begins` and `board_ends`: columns of the
-// centre view. Perceptive depths; the board's may change from left to right.
+// centre view. Both have `rows`; from above and below, views see the wall behind them. Perceptive depths; the board's
+// may change from left to right.
 struct Boards {
-    double plate_ends = 48, board_begins = 20, board_ends = 80;
+    double plate_ends = 48, board_begins = 20, board_ends = 80, rows = 46;
     double plate = 40, wall = 4, board = 30, rise = 0;
     std::function<float(double column, double y)> light = [](double, double) { return 0.5f; }; // of the board
 
     View view(const Imath::V2d &u) const {
         return make_view(windows, options.radius * u, [&](int x, int y) {
             // A point of depth d that the centre view shows at p is seen from u at p - d u.
-            if (x + 0.5 + plate * u.x < plate_ends) return pixel(plate, 0.1f);
+            const auto row_at = [&](double depth) { return y + 0.5 - depth * u.y; };
+            const auto in_rows = [&](double depth) { return std::abs(row_at(depth) - row) < rows / 2; };
+            if (x + 0.5 + plate * u.x < plate_ends && in_rows(plate)) return pixel(plate, 0.1f);
             const double column = (x + 0.5 + (board - 48 * rise) * u.x) / (1 - rise * u.x);
             const double depth = board + rise * (column - 48);
-            if (column >= board_begins && column < board_ends)
-                return pixel(depth, light(column, y + 0.5 - depth * u.y));
+            if (column >= board_begins && column < board_ends && in_rows(depth))
+                return pixel(depth, light(column, row_at(depth)));
             return pixel(wall, 0.9f);
         });
     }
@@ -124,6 +128,13 @@ TEST(ContinueSurfaces, LampsDoNotContinue) {
         for (const Sample &s : board_of(ldi, y))
             if (s.column < 38) most = std::max(most, double(s.light));
     EXPECT_LE(most, 0.51);
+}
+
+// Without the wall, nothing would be seen instead of the board.
+TEST(ContinueSurfaces, EndWhereNothingLiesFarther) {
+    Boards boards;
+    boards.rows = 1000;
+    EXPECT_EQ(first_column(board_of(boards.ldi())), 38);
 }
 
 // What continues is hidden: the centre view still shows the same.
