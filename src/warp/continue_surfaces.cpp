@@ -145,6 +145,7 @@ private:
     std::vector<bool> lamps_; // [sample]
 };
 
+// The runs that no view contradicts, of each row of pixels.
 std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, double scale, const Ldi &ldi,
                                         const Imath::Box2i &frame, const Continuing &continuing) {
     std::vector<std::vector<Run>> rows(std::size_t(frame.max.y - frame.min.y + 1));
@@ -156,8 +157,10 @@ std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, doubl
             return !farthest || double(*farthest) * scale >= hidden.depth - double(one_surface_px);
         };
         parallel_for(rows.size(), [&](std::size_t row) {
-            if (&view == &views.front()) rows[row] = continuing.runs_of(frame.min.y + int(row), may_be);
-            for (Run &run : rows[row]) run.length = continuing.follow(run, may_be);
+            if (&view == &views.front())
+                rows[row] = continuing.runs_of(frame.min.y + int(row), may_be);
+            else
+                for (Run &run : rows[row]) run.length = continuing.follow(run, may_be);
         });
     }
     return rows;
