@@ -53,8 +53,8 @@ struct MatchTuning {
     // A guess of the search that is worse by so many deviations is wrong.
     static constexpr double certain_lead = 5;
     // The error of gathered pictures, besides the spread of the blocks: in compared pixels of CoC and as a share of the
-    // radius. Of 200 plates, 92 % of the intervals of 90 % hold. Next frames are gathered with more noise: over a rack,
-    // the radius is up to 6 % too small.
+    // radius. On 200 plates, 92 % of the intervals contain the true value; 90 % should. Pictures of next frames have more
+    // noise, and the radius of a rack's frames is up to 6 % too small.
     struct GatherError {
         double coc_px, share;
     };

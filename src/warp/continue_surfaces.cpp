@@ -193,12 +193,12 @@ void add(std::vector<Added> all, double scale, Ldi &ldi) {
     Ldi added = empty_like(ldi);
     added.begin.assign(1, 0);
     std::vector<SamplePlace> places;
+    const std::size_t alpha = ldi.alpha();
     for (Added &one : all) {
         const float z = float(depth_of_perceptive(scale, one.depth));
         double weights = 0;
         for (const Term &term : one.terms) weights += term.coefficient;
-        for (Term &term : one.terms)
-            term.coefficient /= weights * double(alpha_at(ldi, ldi.alpha(), term.index));
+        for (Term &term : one.terms) term.coefficient /= weights * double(alpha_at(ldi, alpha, term.index));
         append(added, ldi, MergedSample{z, z, 0, 0, 1, z, 0, one.terms});
         std::uint64_t before = ldi.pixel(one.pixel).from;
         while (before < ldi.pixel(one.pixel).to && ldi.z[before] <= z) ++before;

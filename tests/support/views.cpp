@@ -57,12 +57,15 @@ View TwoPlanes::view(const Windows &windows, const Imath::V2d &position, const F
     return view;
 }
 
-std::vector<View> five_views(const TwoPlanes &scene, const Windows &windows, double radius) {
+std::vector<View> five_views(const std::function<View(const Imath::V2d &u)> &view_from) {
     std::vector<View> views;
-    for (const Imath::V2d &u :
-         {Imath::V2d(0, 0), Imath::V2d(1, 0), Imath::V2d(0, 1), Imath::V2d(-1, 0), Imath::V2d(0, -1)})
-        views.push_back(scene.view(windows, radius * u));
+    for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}})
+        views.push_back(view_from(u));
     return views;
+}
+
+std::vector<View> five_views(const TwoPlanes &scene, const Windows &windows, double radius) {
+    return five_views([&](const Imath::V2d &u) { return scene.view(windows, radius * u); });
 }
 
 View random_view(const Windows &windows, const Imath::V2d &position, std::uint32_t seed) {

@@ -33,7 +33,8 @@ struct TwoPlanes {
     View view(const Windows &windows, const Imath::V2d &position, const Framing &framing = {}) const;
 };
 
-// The centre, then rim views to the right, above, to the left and below.
+// The centre, then rim views to the right, above, to the left and below. `view_from` makes the view from a lens point.
+std::vector<View> five_views(const std::function<View(const Imath::V2d &u)> &view_from);
 std::vector<View> five_views(const TwoPlanes &scene, const Windows &windows, double radius);
 
 // Random depths from a small set, random colours, some pixels empty, some infinitely far: the views are inconsistent.

@@ -40,11 +40,8 @@ struct Boards {
         });
     }
     Ldi ldi() const {
-        std::vector<View> views;
-        for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}})
-            views.push_back(view(u));
         Progress silent;
-        return warp(views, options, silent);
+        return warp(five_views([&](const Imath::V2d &u) { return view(u); }), options, silent);
     }
 
 private:
@@ -137,7 +134,7 @@ TEST(ContinueSurfaces, EndWhereNothingLiesFarther) {
     EXPECT_EQ(first_column(board_of(boards.ldi())), 38);
 }
 
-// What continues is hidden: the centre view still shows the same.
+// The added samples lie behind the plate, so the centre view still shows the plate.
 TEST(ContinueSurfaces, LieBehindWhatTheCentreShows) {
     const Ldi ldi = Boards().ldi();
     for (int x = 0; x < 48; ++x) {

@@ -38,11 +38,8 @@ struct Plates {
         });
     }
     Ldi ldi() const {
-        std::vector<View> views;
-        for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}})
-            views.push_back(view(u));
         Progress silent;
-        return warp(views, options, silent);
+        return warp(five_views([&](const Imath::V2d &u) { return view(u); }), options, silent);
     }
 };
 

@@ -61,9 +61,7 @@ View view_of(const Lamps &lamps, const Imath::V2d &u) {
 
 // The share of each lamp's light in the picture, out of focus by eight pixels.
 std::vector<double> shares(const Lamps &lamps) {
-    std::vector<View> views;
-    for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}})
-        views.push_back(view_of(lamps, u));
+    const auto views = five_views([&](const Imath::V2d &u) { return view_of(lamps, u); });
     Progress silent;
     const Ldi ldi = warp(views, {.focal_px = focal_px, .radius = radius}, silent);
     const ThinLens lens{
