@@ -28,4 +28,17 @@ inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 
+// A mixture with a veil behind, whose density changes from pixel to pixel: c = a F + (1 - a) k B. Colours are RGBA, F is
+// opaque, and B covers a part of its pixel.
+struct VeilMix {
+    double share;    // a, of F
+    double density;  // k: the veil covers k times as much as B
+    double residual; // as above, with k B for B
+};
+
+// Solves for a and k: the coverages add up to that of c exactly, the colours by least squares. As coverage tells more
+// than the depth of the pixel, there is no prior. Returns nothing where unmix() would.
+std::optional<VeilMix> unmix_veil(const Imath::V4d &c, const Imath::V4d &f, const Imath::V4d &b,
+                                  double largest_residual);
+
 } // namespace sparselens

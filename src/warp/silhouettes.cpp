@@ -1,5 +1,6 @@
 #include "warp/silhouettes.h"
 
+#include "base/coverage.h"
 #include "base/parallel.h"
 #include "deep/unmixing.h"
 #include "lens/perceptive_depth.h"
@@ -17,10 +18,20 @@ namespace sparselens {
 
 namespace {
 
+// Opaque pixels mix opaque surfaces. A veil's density, like what a pixel leaves open, differs from pixel to pixel.
+std::optional<VeilMix> unmix_before(const Imath::V4d &behind, const Imath::V4d &c, const Imath::V4d &front,
+                                    const MixPrior &prior, double largest_residual) {
+    if (!is_opaque(float(behind[3])) || !is_opaque(float(c[3]))) return unmix_veil(c, front, behind, largest_residual);
+    const auto rgb = [](const Imath::V4d &v) { return Imath::V3d(v[0], v[1], v[2]); };
+    const auto mix = unmix(rgb(c), rgb(front), rgb(behind), prior, largest_residual);
+    if (!mix) return {};
+    return VeilMix{mix->share, 1, mix->residual};
+}
+
 // The colour of a surface around a pixel: a mean over samples.
 struct Estimate {
     std::vector<Term> terms; // coefficients sum to 1
-    Imath::V3d colour{0, 0, 0};
+    Imath::V4d colour{0, 0, 0, 0};
     bool pure = false; // whether some terms are pixels that nothing else is mixed into
 };
 
@@ -40,9 +51,10 @@ private:
     bool is_of_crossed_lamp(int x, int y) const;
     Mixture of_lamp(int x, int y, const Mixture &light) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
-    std::optional<Estimate> estimate(int x, int y, double depth) const;
-    Imath::V3d purest(int x, int y, double depth, const Imath::V3d &front, const Imath::V3d &behind) const;
-    std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V3d &front) const;
+    enum class Needs { opaque, any };
+    std::optional<Estimate> estimate(int x, int y, double depth, Needs needs) const;
+    Imath::V4d purest(int x, int y, double depth, const Imath::V4d &front, const Imath::V4d &behind) const;
+    std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V4d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
 
     template <typename Visit>
@@ -52,10 +64,10 @@ private:
     std::uint64_t own_sample(int x, int y) const { return samples_.own_sample(x, y); }
     double depth_of(std::uint64_t i) const { return samples_.depth_of(i); }
     bool is_opaque(std::uint64_t i) const { return samples_.is_opaque(i); }
-    Imath::V3d colour_of(std::uint64_t i) const { return samples_.colour_of(i); }
+    Imath::V4d colour_of(std::uint64_t i) const { return samples_.rgba_of(i); }
     // Whether a sample belongs to the surface at that depth, and nothing nearer may be mixed into it.
     bool tells_of(double depth, std::uint64_t i) const {
-        return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
+        return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer));
     }
 
     const ViewSamples &view_;
@@ -123,12 +135,12 @@ const auto nearness = [] {
 
 // Returns the mean of the surface at that depth over the pixels around that nothing nearer may be mixed into. Pixels
 // that something farther may be mixed into count less, because a lamp behind the surface would shine at its depth.
-std::optional<Estimate> Separation::estimate(int x, int y, double depth) const {
+std::optional<Estimate> Separation::estimate(int x, int y, double depth, Needs needs) const {
     Estimate result;
     result.terms.reserve((2 * WarpTuning::silhouette_radius + 1) * (2 * WarpTuning::silhouette_radius + 1));
     double sum = 0;
     around(x, y, WarpTuning::silhouette_radius, [&](std::uint64_t i, int dx, int dy) {
-        if (!tells_of(depth, i)) return;
+        if (!tells_of(depth, i) || (needs == Needs::opaque && !is_opaque(i))) return;
         const double weight = nearness[std::size_t(dx * dx + dy * dy)] *
                               (sides_[i] & has_farther ? WarpTuning::silhouette_edge_share : 1);
         result.terms.push_back({i, weight});
@@ -157,28 +169,30 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
             mixture.far_depth = depth;
         nearest = std::min(nearest, double(distance));
     });
-    const auto front = estimate(x, y, mixture.near_depth), behind = estimate(x, y, mixture.far_depth);
+    const auto front = estimate(x, y, mixture.near_depth, Needs::opaque),
+               behind = estimate(x, y, mixture.far_depth, Needs::any);
     if (!front) return {};
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
-    const Imath::V3d f =
+    const Imath::V4d f =
         front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
-    const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far ? mostly_b : mostly_f,
-                           WarpTuning::silhouette_residual);
+    const auto mix = unmix_before(behind->colour, colour_of(own), f, own_is_far ? mostly_b : mostly_f,
+                                  WarpTuning::silhouette_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
     mixture.share = mix->share;
     mixture.behind = behind->terms;
+    for (Term &term : mixture.behind) term.coefficient *= mix->density;
     return mixture;
 }
 
 // Returns the colour of the least mixed pixel of a surface that has edges in all its pixels, such as a wire or a small
 // lamp: the pixel that differs most from what is behind.
-Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &front,
-                              const Imath::V3d &behind) const {
-    const Imath::V3d contrast = front - behind;
-    Imath::V3d result = front;
+Imath::V4d Separation::purest(int x, int y, double depth, const Imath::V4d &front,
+                              const Imath::V4d &behind) const {
+    const Imath::V4d contrast = front - behind;
+    Imath::V4d result = front;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
-        if (!tells_of(depth, i)) return;
-        if (const Imath::V3d c = colour_of(i); (c - result).dot(contrast) > 0) result = c;
+        if (!tells_of(depth, i) || !is_opaque(i)) return;
+        if (const Imath::V4d c = colour_of(i); (c - result).dot(contrast) > 0) result = c;
     });
     return result;
 }
@@ -186,20 +200,19 @@ Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &fron
 // The surface behind may be smaller than the area of a mean, such as a lamp or a stripe. The farther pixel around that
 // explains the colour best is then taken for it.
 std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth,
-                                                  const Imath::V3d &front) const {
+                                                  const Imath::V4d &front) const {
     const std::uint64_t own = own_sample(x, y);
     const bool own_is_far = sides_[own] & has_nearer;
     std::optional<Mixture> best;
     double least = std::numeric_limits<double>::infinity();
     around(x, y, 1, [&](std::uint64_t i, int, int) {
-        if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
-        const Imath::V3d b = colour_of(i);
-        const auto mix = unmix(colour_of(own), front, b, own_is_far ? mostly_b : mostly_f,
-                               WarpTuning::silhouette_residual_of_one);
+        if (i == own || depth_of(i) >= near_depth - jump_) return;
+        const auto mix = unmix_before(colour_of(i), colour_of(own), front, own_is_far ? mostly_b : mostly_f,
+                                      WarpTuning::silhouette_residual_of_one);
         if (!mix || mix->residual >= least) return;
         if (std::min(mix->share, 1 - mix->share) < WarpTuning::silhouette_least_share_of_one) return;
         least = mix->residual;
-        best = {near_depth, depth_of(i), mix->share, {{i, 1}}};
+        best = {near_depth, depth_of(i), mix->share, {{i, mix->density}}};
     });
     return best;
 }
@@ -239,6 +252,7 @@ Mixture Separation::of_lamp(int x, int y, const Mixture &light) const {
 }
 
 std::optional<Mixture> Separation::find(int x, int y) const {
+    if (!is_opaque(own_sample(x, y))) return mixture_of(x, y);
     const bool strands = among_strands(samples_, x, y);
     if (strands || is_of_crossed_lamp(x, y))
         if (const auto light =
@@ -251,7 +265,7 @@ std::optional<Mixture> Separation::find(int x, int y) const {
 bool Separation::may_be_mixed(std::size_t pixel) const {
     if (samples_.is_empty(pixel)) return false;
     const std::uint64_t own = view_.pixel(pixel).front();
-    return sides_[own] != inside && is_opaque(own);
+    return sides_[own] != inside;
 }
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {

@@ -39,6 +39,11 @@ public:
         return {value(0), value(1), value(2)};
     }
 
+    Imath::V4d rgba_of(std::uint64_t i) const {
+        const Imath::V3d c = colour_of(i);
+        return {c.x, c.y, c.z, double(alpha_at(view_, alpha_, i))};
+    }
+
     // Calls visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
     template <typename Visit>
     void around(int x, int y, int reach, const Visit &visit) const {
