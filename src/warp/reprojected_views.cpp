@@ -88,9 +88,12 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
     // One after the other, each by all threads, which takes less memory.
     for (std::size_t v = 0; v < samples.size(); ++v) {
         some_are_deep_ = some_are_deep_ || samples[v].deep();
-        if (separate && !samples[v].deep()) separate_silhouettes(samples[v], scale, jump, crossed[v]);
-        sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
+        const OtherViews others(samples, mappings, v, scale);
+        if (separate && !samples[v].deep())
+            separate_silhouettes(samples[v], scale, jump, crossed[v], &others);
     }
+    for (std::size_t v = 0; v < samples.size(); ++v)
+        sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     if (!some_are_deep_) return;
     std::vector<PlacedView> placed;
     for (const auto &source : sources_) placed.push_back({&source->samples, &source->reprojection.mapping()});

@@ -21,7 +21,8 @@ namespace {
 // Opaque pixels mix opaque surfaces. A veil's density, like what a pixel leaves open, differs from pixel to pixel.
 std::optional<VeilMix> unmix_before(const Imath::V4d &behind, const Imath::V4d &c, const Imath::V4d &front,
                                     const MixPrior &prior, double largest_residual) {
-    if (!is_opaque(float(behind[3])) || !is_opaque(float(c[3]))) return unmix_veil(c, front, behind, largest_residual);
+    if (!is_opaque(float(behind[3])) || !is_opaque(float(c[3])))
+        return unmix_veil(c, front, behind, largest_residual);
     const auto rgb = [](const Imath::V4d &v) { return Imath::V3d(v[0], v[1], v[2]); };
     const auto mix = unmix(rgb(c), rgb(front), rgb(behind), prior, largest_residual);
     if (!mix) return {};
@@ -37,8 +38,8 @@ struct Estimate {
 
 class Separation {
 public:
-    Separation(const ViewSamples &view, double scale, double jump,
-               std::span<const std::size_t> crossed_lamps);
+    Separation(const ViewSamples &view, double scale, double jump, std::span<const std::size_t> crossed_lamps,
+               const OtherViews *others);
     bool may_be_mixed(std::size_t pixel) const;
     void emit_pixel(std::size_t pixel, Ldi &out) const; // appends a pixel that may be mixed, if it is mixed
 
@@ -74,14 +75,15 @@ private:
     SamplesAround samples_;
     double scale_, jump_;
     std::span<const std::size_t> crossed_lamps_; // pixels, ascending
+    const OtherViews *others_;                   // may be null
     std::vector<Matte> mattes_;
     std::vector<unsigned char> sides_; // of each pixel
 };
 
 Separation::Separation(const ViewSamples &view, double scale, double jump,
-                       std::span<const std::size_t> crossed_lamps)
+                       std::span<const std::size_t> crossed_lamps, const OtherViews *others)
     : view_(view), samples_(view, scale), scale_(scale), jump_(jump), crossed_lamps_(crossed_lamps),
-      mattes_(find_mattes(view.channels)) {
+      others_(others), mattes_(find_mattes(view.channels)) {
     sides_.assign(view.windows.pixels(), inside);
     if (!samples_.have_colours()) return;
     const Grid &grid = samples_.grid();
@@ -258,8 +260,7 @@ std::optional<Mixture> Separation::find(int x, int y) const {
         if (const auto light =
                 light_between_strands(samples_, x, y, jump_, strands ? WarpTuning::strand_apart_px : jump_))
             return strands || light->far_depth != depth_of(own_sample(x, y)) ? light : of_lamp(x, y, *light);
-    if (const auto mixture = mixture_of(x, y)) return mixture;
-    return strands ? strands_before(samples_, x, y) : std::nullopt;
+    return strands ? strands_before(samples_, x, y, others_) : mixture_of(x, y);
 }
 
 bool Separation::may_be_mixed(std::size_t pixel) const {
@@ -277,8 +278,8 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
 } // namespace
 
 void separate_silhouettes(ViewSamples &view, double scale, double jump,
-                          std::span<const std::size_t> crossed_lamps) {
-    const Separation separation(view, scale, jump, crossed_lamps);
+                          std::span<const std::size_t> crossed_lamps, const OtherViews *others) {
+    const Separation separation(view, scale, jump, crossed_lamps, others);
     view.replace([&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
                  [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
 }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "deep/view_samples.h"
+#include "warp/mixed/other_views.h"
 
 #include <cstddef>
 #include <span>
@@ -21,8 +22,9 @@ namespace sparselens {
 // `view` has at most one sample per pixel. `scale` is R F, pixels times scene units. `jump`, > 0: two surfaces differ
 // by at least this much in perceptive depth, pixels. It must be the same as for averaging: otherwise a mixture of two
 // surfaces that are averaged separately would be left whole to one of them. `crossed_lamps`: pixels, in ascending
-// order, that keep their light (lamps/lamp_depths.h).
+// order, that keep their light (lamps/lamp_depths.h). `others`: the views that may show what is behind strands.
 void separate_silhouettes(ViewSamples &view, double scale, double jump,
-                          std::span<const std::size_t> crossed_lamps = {});
+                          std::span<const std::size_t> crossed_lamps = {},
+                          const OtherViews *others = nullptr);
 
 } // namespace sparselens

@@ -50,6 +50,8 @@ struct WarpTuning {
     static constexpr double least_lamp_px = 0.1;
     // Share of the strands around that are dimmer than the colour estimated for them.
     static constexpr double dim_strand = 0.3;
+    // Pixels: reach of the strands that tell their colour. With 4, hair before lamps loses 0.2 dB.
+    static constexpr int strand_colour_reach = 8;
     // Residual of a colour that two others explain, as a share of it.
     static constexpr double strand_residual = 0.1;
 

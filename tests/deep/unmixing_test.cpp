@@ -102,7 +102,8 @@ TEST(UnmixVeil, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(unmix_veil(opaque_red, opaque_red, veil, 0.2)); // not mixed
     EXPECT_FALSE(unmix_veil(veil, opaque_red, veil, 0.2));
     EXPECT_FALSE(unmix_veil(veil, opaque_red, Imath::V4d(0, 0, 0, 0), 0.2));
-    EXPECT_FALSE(unmix_veil(0.5 * opaque_red + Imath::V4d(0, 0, 0.8, 0), opaque_red, veil, 0.2)); // another colour
+    EXPECT_FALSE(
+        unmix_veil(0.5 * opaque_red + Imath::V4d(0, 0, 0.8, 0), opaque_red, veil, 0.2)); // another colour
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
         EXPECT_FALSE(unmix_veil(Imath::V4d(bad, 0, 0, 0.5), opaque_red, veil, 0.2));
 }

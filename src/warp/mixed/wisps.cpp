@@ -4,7 +4,10 @@
 #include "lens/lamp.h"
 #include "warp/tuning.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace sparselens {
@@ -48,16 +51,52 @@ std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, in
     return lamp;
 }
 
-// Returns the colour of the strand at that depth that differs most from a given colour.
-Imath::V3d most_different(const SamplesAround &samples, int x, int y, double depth, const Imath::V3d &from) {
-    Imath::V3d result = from;
-    samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
+struct Strand {
+    std::uint64_t sample;
+    Imath::V3d colour;
+    double brightness;
+};
+
+// The strands at that depth around, without those that a lamp shines through. Farther ones are neighbours of each other
+// that tell the same: every other one will do, along rows and along columns.
+std::vector<Strand> unlit_strands(const SamplesAround &samples, int x, int y, double depth) {
+    std::vector<Strand> strands;
+    samples.around(x, y, WarpTuning::strand_colour_reach, [&](std::uint64_t i, int dx, int dy) {
+        if (std::max(std::abs(dx), std::abs(dy)) > WarpTuning::strand_reach && (dx % 2 || dy % 2)) return;
         if (std::abs(samples.depth_of(i) - depth) > WarpTuning::strand_apart_px || !samples.is_opaque(i))
             return;
-        if (const Imath::V3d c = samples.colour_of(i); (c - from).length2() > (result - from).length2())
-            result = c;
+        const Imath::V3d colour = samples.colour_of(i);
+        strands.push_back({i, colour, colour.length()});
     });
-    return result;
+    if (strands.size() < 3) return strands;
+    const auto dim = strands.begin() + std::ptrdiff_t(WarpTuning::dim_strand * double(strands.size()));
+    std::ranges::nth_element(strands, dim, {}, &Strand::brightness);
+    const double dimness = dim->brightness;
+    std::erase_if(strands, [&](const Strand &strand) { return stands_out(strand.brightness, dimness); });
+    return strands;
+}
+
+// The strand whose share of the colour is the smallest before `behind`, of those that explain it.
+struct Share {
+    double share;
+    std::uint64_t strand;
+};
+std::optional<Share> least_share(const Imath::V3d &colour, std::span<const Strand> strands,
+                                 const Imath::V3d &behind) {
+    const Imath::V3d offset = colour - behind;
+    const double off2 = offset.length2(),
+                 most2 = WarpTuning::strand_residual * WarpTuning::strand_residual * colour.length2();
+    std::optional<Share> least;
+    for (const Strand &strand : strands) {
+        const Imath::V3d across = strand.colour - behind;
+        const double along = offset.dot(across), across2 = across.length2();
+        // What unmix() would refuse, for most strands, or would find a larger share for.
+        if (off2 * across2 - along * along > most2 * across2) continue;
+        if (least && along >= least->share * across2) continue;
+        const auto mix = unmix(colour, strand.colour, behind, no_prior, std::sqrt(most2 / across2));
+        if (mix && (!least || mix->share < least->share)) least = {mix->share, strand.sample};
+    }
+    return least;
 }
 
 } // namespace
@@ -101,21 +140,43 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     return Mixture{near_depth, lamp_depth, share < least_mixed_share ? 0 : share, {}, strand};
 }
 
-std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y) {
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y, const OtherViews *others) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
     const double near_depth = own_depth > nearest - WarpTuning::strand_apart_px ? own_depth : nearest;
-    std::optional<Mixture> best;
-    samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
-        if (samples.depth_of(i) > near_depth - WarpTuning::strand_apart_px || !samples.is_opaque(i)) return;
-        const Imath::V3d b = samples.colour_of(i);
-        const Imath::V3d c = samples.colour_of(own), f = most_different(samples, x, y, near_depth, b);
-        const auto mix =
-            unmix(c, f, b, no_prior, WarpTuning::strand_residual * c.length() / (f - b).length());
-        if (mix && (!best || mix->share > best->share))
-            best = {near_depth, samples.depth_of(i), mix->share, {{i, 1}}};
-    });
-    return best;
+    const Imath::V3d colour = samples.colour_of(own);
+    std::vector<Strand> strands;
+    std::vector<Mixture> all;
+    const auto add = [&](double depth, const Imath::V3d &behind, const std::vector<Term> &terms) {
+        if (strands.empty()) strands = unlit_strands(samples, x, y, near_depth);
+        const auto least = least_share(colour, strands, behind);
+        if (!least) return;
+        all.push_back({near_depth, depth, least->share, terms, {}});
+        if (terms.empty()) all.back().front = least->strand;
+    };
+    const auto around = [&](const auto &visit) {
+        samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
+            if (samples.depth_of(i) <= near_depth - WarpTuning::strand_apart_px && samples.is_opaque(i))
+                visit(i);
+        });
+    };
+    std::vector<double> asked;
+    if (others)
+        around([&](std::uint64_t i) {
+            const double depth = samples.depth_of(i);
+            if (std::ranges::any_of(
+                    asked, [&](double d) { return std::abs(d - depth) < WarpTuning::strand_apart_px; }))
+                return;
+            asked.push_back(depth);
+            if (const auto behind = others->colour_behind({x, y}, depth, WarpTuning::strand_apart_px))
+                add(depth, *behind, {});
+        });
+    if (all.empty())
+        around([&](std::uint64_t i) { add(samples.depth_of(i), samples.colour_of(i), {{i, 1}}); });
+    if (all.empty()) return {};
+    const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
+    std::ranges::nth_element(all, middle, {}, &Mixture::share);
+    return *middle;
 }
 
 } // namespace sparselens

@@ -8,11 +8,13 @@
 //   - A pixel that is four times as bright as the strands holds light from between them. The light belongs to the
 //     brightest pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single
 //     strand crosses.
-//   - Else B is the farther pixel that leaves most of the pixel to the strands and still explains its colour, and F is
-//     the strand that differs most from B.
+//   - Else B is what other views show behind the strands, or a farther pixel around if all of them are mixed there, too.
+//     F is the strand that leaves the strands the smallest share among those that explain the colour with B, because
+//     most pixels of strands are mixed. The median over all B decides.
 #pragma once
 
 #include "deep/build.h"
+#include "warp/mixed/other_views.h"
 #include "warp/mixed/samples_around.h"
 
 #include <optional>
@@ -39,7 +41,7 @@ bool among_strands(const SamplesAround &samples, int x, int y);
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
                                              double apart);
 
-// The share of strands in a pixel among them, if the pixels around explain its colour.
-std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y);
+// The share of strands in a pixel among them, if the pixels around or other views explain its colour.
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y, const OtherViews *others);
 
 } // namespace sparselens

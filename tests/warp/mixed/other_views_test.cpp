@@ -1,0 +1,68 @@
+#include "support/views.h"
+#include "warp/mixed/other_views.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+constexpr double focal_px = 100, scale = 20; // R F
+constexpr int width = 40;
+
+// A wall at depth 10 whose red says which point of it a pixel shows, before which a card at depth 2 covers columns
+// of the centre view. The cameras stand so far apart that the card moves by 10 pixels and the wall by 2.
+struct Scene {
+    std::vector<ViewSamples> samples;
+    std::vector<ViewMapping> mappings;
+    std::vector<View> views;
+
+    explicit Scene(const std::vector<double> &cameras, float alpha = 1) {
+        for (const double camera : cameras)
+            views.push_back(make_view(windows_of_size(width, 9), {camera, 0}, [&](int x, int) {
+                const double card = x + 0.5 + focal_px * camera / 2;
+                if (card > 15 && card < 20) return ViewPixel{.z = 2, .g = 1};
+                const double wall = x + 0.5 + focal_px * camera / 10;
+                return ViewPixel{.z = 10, .r = float(wall) * alpha, .a = alpha};
+            }));
+        for (const View &view : views) {
+            samples.emplace_back(view, view.image.channels);
+            mappings.emplace_back(view.position, focal_px, view.image.windows);
+        }
+    }
+    std::optional<Imath::V3d> behind(std::size_t own, int x, double depth = 2) const {
+        return OtherViews(samples, mappings, own, scale).colour_behind({x, 4}, depth, 1);
+    }
+};
+
+TEST(OtherViews, ShowWhatACardHides) {
+    const Scene scene({0, 0.2});
+    const auto colour = scene.behind(0, 17); // the card's column 17; the wall's perceptive depth is 2
+    ASSERT_TRUE(colour);
+    EXPECT_NEAR(colour->x, 17.5, 1e-5);
+    EXPECT_EQ(colour->y, 0);
+    const auto back = scene.behind(1, 7); // the same card in the other view
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->x, 9.5, 1e-5);
+}
+
+TEST(OtherViews, AreMeans) {
+    const Scene one({0, 0.2}), two({0, 0.2, 0.25});
+    ASSERT_TRUE(two.behind(0, 17));
+    EXPECT_NEAR(two.behind(0, 17)->x, (17.5 + 17.5) / 2, 0.5); // the third view is half a pixel off
+    EXPECT_NE(two.behind(0, 17)->x, one.behind(0, 17)->x);
+}
+
+TEST(OtherViews, SayNothingWhereTheSurfaceIsMixedHiddenOrOutside) {
+    const Scene scene({0, 0.2});
+    EXPECT_FALSE(Scene({0}).behind(0, 17));            // no other view
+    EXPECT_FALSE(scene.behind(0, 9));                  // the card of the other view is there
+    EXPECT_FALSE(scene.behind(0, 11));                 // and beside this pixel
+    EXPECT_FALSE(scene.behind(0, 17, 5));              // nothing lies at that depth
+    EXPECT_FALSE(scene.behind(0, 1));                  // outside of the other view
+    EXPECT_FALSE(Scene({0, 0.2}, 0.5f).behind(0, 17)); // not opaque
+}
+
+} // namespace
+} // namespace sparselens
