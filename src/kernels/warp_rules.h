@@ -81,28 +81,37 @@ inline double balanced_share(double dx, double dy, double by_x, double by_y) {
 // The mean of the samples of a surface: positions and 1 / z are averaged by weight. The mean of the positions belongs
 // to the mean of the colours, so nothing is blurred where colour is linear.
 struct Mean {
-    double weights, dx, dy, inverse_z; // weights: the sum of the weights in it
-    double merged;                     // view samples in it
+    double weights, dx, dy, inverse_z, covers; // weights: the sum of the weights in it; covers: alpha
+    double merged;                             // view samples in it
 };
-inline void add_to_mean(Mean &sum, double weight, double merged, double dx, double dy, double inverse_z) {
+inline void add_to_mean(Mean &sum, double weight, double merged, double dx, double dy, double inverse_z,
+                        double alpha) {
     sum.merged += merged;
     sum.weights += weight;
     sum.dx += weight * dx;
     sum.dy += weight * dy;
     sum.inverse_z += weight * inverse_z;
+    sum.covers += weight * alpha;
 }
 inline void divide_mean(Mean &sum) {
     sum.dx /= sum.weights;
     sum.dy /= sum.weights;
     sum.inverse_z /= sum.weights;
+    sum.covers /= sum.weights;
 }
 
-// The visibility vote (warp/visibility_vote.h): what a sample covers of what is left of its pixel, and the coverage by
-// the votes of all views.
+// The visibility vote (warp/visibility_vote.h): what a sample covers of what is left of its pixel; the coverage by the
+// majority of the views; and half by majority, half by the mean of what they show, where the samples of the surface
+// cover `shown` of their own pixels on average.
 inline double covers(double alpha, double left) { return alpha < 0 ? 0.0 : left < alpha ? left : alpha; }
-inline double coverage_by_votes(double there, double past) {
-    const double all = there + past, share = 2 * there / all - 0.5;
-    return !(all > 0) ? 1.0 : share < 0 ? 0.0 : share > 1 ? 1.0 : share;
+inline double bounded_share(double share) { return share < 0 ? 0.0 : share > 1 ? 1.0 : share; }
+inline double coverage_by_majority(double there, double past, double through) {
+    const double all = there + past;
+    return !(all > 0) ? 1.0 : bounded_share(2 * (there + through) / all - 0.5);
+}
+inline double coverage_by_votes(double there, double past, double through, double shown) {
+    const double all = (there + past) * shown, mean = !(all > 0) ? 1.0 : bounded_share(there / all);
+    return 0.5 * (coverage_by_majority(there, past, through) + mean);
 }
 
 } // namespace sparselens::kernels

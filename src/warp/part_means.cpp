@@ -125,7 +125,8 @@ void PartMeans::append_hidden(std::span<const ViewSample> samples, Ldi &out) con
     if (!(covered > 0)) return;
     const MergedSample place = place_of(shares);
     const Imath::V2d at(samples[0].x + 0.5 + double(place.dx), samples[0].y + 0.5 + double(place.dy));
-    const double coverage = visibility_vote(views_, at, 1 / double(place.z), tolerance_) / pixels;
+    const double coverage =
+        coverage_by_majority(votes_on(views_, at, 1 / double(place.z), tolerance_)) / pixels;
     if (coverage == 0) return;
     append_place(out, volumes_, place);
     MatteSum pairs(mattes_);

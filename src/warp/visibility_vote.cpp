@@ -51,10 +51,12 @@ Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double in
     return votes;
 }
 
-double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
-                       double tolerance) {
-    const Votes votes = votes_on(views, place, inverse_z, tolerance);
-    return kernels::coverage_by_votes(votes.there + votes.through, votes.past - votes.through);
+double coverage_by_majority(const Votes &votes) {
+    return kernels::coverage_by_majority(votes.there, votes.past, votes.through);
+}
+
+double coverage_by_votes(const Votes &votes, double shown) {
+    return kernels::coverage_by_votes(votes.there, votes.past, votes.through, shown);
 }
 
 } // namespace sparselens

@@ -2,7 +2,8 @@
 //
 // A pixel of one view on an edge claims the whole pixel for the surface. Of the other views of the same position, some
 // see the surface and some see past it. If every claim counted, the surface would grow with every view; by majority it
-// keeps its size, and its edge becomes softer with more views.
+// keeps its size, and its edge becomes softer with more views. The mean of what the views show is right on average, but
+// also keeps what a few views misplaced. Both together are better than either.
 //
 // A veil, or an edge in front of nothing, covers a part of the pixels that see it. Its samples already have that
 // coverage, so the vote must not reduce it again: what a pixel leaves open is not a vote against what it sees there.
@@ -32,9 +33,12 @@ using SeePast = std::function<void(const ViewSamples &view, std::uint64_t sample
 Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
                const SeePast &past = {});
 
-// The coverage, 0..1, of such a surface: 1 where three quarters of the votes are for it, 0 where a quarter or fewer
-// are, and in proportion between; 1 where no view can tell.
-double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
-                       double tolerance);
+// The coverage, 0..1, of such a surface by majority: 1 where three quarters of the votes are for it, 0 where a quarter or
+// fewer are, and in proportion between; 1 where no view can tell.
+double coverage_by_majority(const Votes &votes);
+
+// The coverage, 0..1, by which the samples of such a surface are multiplied, which cover `shown` of their own pixels on
+// average: half by majority, half by the mean of what the votes say is there.
+double coverage_by_votes(const Votes &votes, double shown);
 
 } // namespace sparselens

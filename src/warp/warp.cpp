@@ -56,6 +56,7 @@ private:
     Ldi layout_; // windows and channels of the result
     std::vector<Matte> mattes_;
     std::vector<bool> ids_; // whether a channel holds_ids()
+    std::size_t alpha_;     // the channel; npos: all samples opaque
     PartMeans part_means_;
 };
 
@@ -71,6 +72,7 @@ Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
     layout_.windows = views_.samples(0).windows;
     layout_.channels = views_.samples(0).channels;
     layout_.values.resize(layout_.channels.size());
+    alpha_ = find_channel(layout_.channels, "A");
     for (const Channel &channel : layout_.channels) ids_.push_back(holds_ids(channel));
     if (averages()) grow_window();
 }
@@ -89,11 +91,14 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     kernels::Mean mean{}; // double, because views may be many and depths close to each other
     for (const ViewSample &s : samples)
         kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight(s.source)), double(s.dx),
-                             double(s.dy), double(s.inverse_z));
+                             double(s.dy), double(s.inverse_z),
+                             double(alpha_at(views_.samples(s.view), alpha_, s.source)));
     kernels::divide_mean(mean);
     const Imath::V2d place(samples[0].x + 0.5 + mean.dx, samples[0].y + 0.5 + mean.dy);
     const double coverage =
-        samples[0].view == 0 ? 1 : visibility_vote(views_, place, mean.inverse_z, tolerance_);
+        samples[0].view == 0
+            ? 1
+            : coverage_by_votes(votes_on(views_, place, mean.inverse_z, tolerance_), mean.covers);
     if (coverage == 0) return;
     const bool alone = samples.size() == 1;
     out.z.push_back(alone ? views_.samples(samples[0].view).z(samples[0].source) : float(1 / mean.inverse_z));

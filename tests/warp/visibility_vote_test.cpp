@@ -18,7 +18,8 @@ public:
             views_.push_back(scene.view(windows_of_size(40, 10), camera));
     }
     double coverage(double x, double y, double z) const {
-        return visibility_vote(ReprojectedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance);
+        return coverage_by_majority(
+            votes_on(ReprojectedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance));
     }
 
 private:
@@ -58,7 +59,8 @@ TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
         std::vector<View> views{with.view(w, {0, 0})};
         for (int i = 0; i < there; ++i) views.push_back(with.view(w, {0.02, 0}));
         for (int i = 0; i < past; ++i) views.push_back(without.view(w, {0.02, 0}));
-        return visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance);
+        return coverage_by_majority(
+            votes_on(ReprojectedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance));
     };
     EXPECT_EQ(coverage(3, 1), 1);
     EXPECT_DOUBLE_EQ(coverage(5, 3), 0.75);
@@ -75,7 +77,8 @@ TEST(VisibilityVote, WhatAVeilLeavesOpenIsNoVoteAgainstIt) {
     const auto coverage = [&](const std::vector<ViewPixel> &pixels, double z) {
         std::vector<View> views{make_view(w, {0, 0}, [](int, int) { return ViewPixel{.z = 2}; })};
         for (const ViewPixel &p : pixels) views.push_back(make_view(w, {0, 0}, [&](int, int) { return p; }));
-        return visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {4, 4}, 1 / z, tolerance);
+        return coverage_by_majority(
+            votes_on(ReprojectedViews(views, focal_px, 1, 0), {4, 4}, 1 / z, tolerance));
     };
     const ViewPixel veil{.z = 2, .a = 0.3f}, wall{.z = 10};
     EXPECT_EQ(coverage({veil}, 2), 1);
@@ -83,6 +86,21 @@ TEST(VisibilityVote, WhatAVeilLeavesOpenIsNoVoteAgainstIt) {
     EXPECT_DOUBLE_EQ(coverage({veil, wall}, 2), 0.5);
     EXPECT_DOUBLE_EQ(coverage({veil, veil, veil, wall, wall, wall}, 2), 0.5);
     EXPECT_EQ(coverage({veil}, 10), 0); // it looks past the wall's position
+}
+
+TEST(VisibilityVote, IsHalfMajorityHalfMean) {
+    EXPECT_DOUBLE_EQ(coverage_by_votes({.there = 4}, 1), 1);
+    EXPECT_DOUBLE_EQ(coverage_by_votes({.there = 2, .past = 2}, 1), 0.5);
+    EXPECT_DOUBLE_EQ(coverage_by_votes({.there = 1, .past = 3}, 1), 0.5 * 0.25); // by majority 0
+    EXPECT_DOUBLE_EQ(coverage_by_votes({.there = 3, .past = 1}, 1), 0.5 * (1 + 0.75));
+    EXPECT_DOUBLE_EQ(coverage_by_votes({}, 1), 1); // no view can tell
+}
+
+// Samples that show a third of their pixels are not made less where each view shows a third: they are the mean.
+TEST(VisibilityVote, PartsOfPixelsAreMeansAlready) {
+    const Votes thirds{.there = 4 / 3.0, .past = 8 / 3.0, .open = 0, .through = 8 / 3.0};
+    EXPECT_DOUBLE_EQ(coverage_by_votes(thirds, 1 / 3.0), 1);
+    EXPECT_DOUBLE_EQ(coverage_by_votes(thirds, 2 / 3.0), 0.75); // the samples are those with the most
 }
 
 } // namespace

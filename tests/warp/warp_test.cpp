@@ -213,8 +213,8 @@ TEST(Warp, NothingIsLost) {
         const ReprojectedViews placed(views, focal_px, focal_px * radius, 0);
         const auto past = [&](const Witness &seen, int x, int y) {
             const double inverse_z = seen.depth / (focal_px * radius);
-            return visibility_vote(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
-                                   averaging.surface_px / (focal_px * radius)) < 1;
+            return coverage_by_majority(votes_on(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
+                                                 averaging.surface_px / (focal_px * radius))) < 1;
         };
         std::size_t seen_pixels = 0, lost = 0;
         for_each_pixel(ldi.windows.data, [&](int x, int y) {

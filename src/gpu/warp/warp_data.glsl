@@ -44,6 +44,7 @@ bool has_rule(uint rule) { return (frame.rules & rule) != 0; }
 uint first_of(uint pixel) { return pixel == 0 ? 0 : ends[pixel - 1]; }
 
 float value_of(uint sample_, uint channel) { return uintBitsToFloat(values[channel * frame.samples + sample_]); }
+double alpha_of(uint sample_) { return frame.alpha == none ? 1.0lf : double(value_of(sample_, frame.alpha)); }
 double x_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.y)); }
 double y_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.z)); }
 double inverse_z_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.w)); }

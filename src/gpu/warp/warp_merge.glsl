@@ -59,11 +59,11 @@ double balanced_weight(uvec4 fallen, dvec2 balance) {
 }
 
 Mean mean_of(uint from, uint to, dvec2 balance) {
-    Mean mean = Mean(0, 0, 0, 0, 0);
+    Mean mean = Mean(0, 0, 0, 0, 0, 0);
     for (uint i = from; i < to; ++i) {
         const uvec4 fallen = landed[i];
         add_to_mean(mean, balanced_weight(fallen, balance), double(weights[fallen.x]), x_of(fallen), y_of(fallen),
-                    inverse_z_of(fallen));
+                    inverse_z_of(fallen), alpha_of(fallen.x));
     }
     divide_mean(mean);
     return mean;

@@ -12,8 +12,7 @@ void count_votes(uint begin, uint end, double inverse_z) {
     if (begin == end) return;
     precise double left = 1, seen = 0, missed = past;
     for (uint i = begin; i < end; ++i) {
-        const double alpha = frame.alpha == none ? 1.0lf : double(value_of(i, frame.alpha));
-        const double covered = covers(alpha, left);
+        const double covered = covers(alpha_of(i), left);
         precise const double nearer = 1.0lf / double(depths[i]) - inverse_z;
         if (abs(nearer) < frame.tolerance) seen = seen + covered;
         else if (nearer < 0) missed = missed + covered;
@@ -38,8 +37,7 @@ double vote(ivec2 pixel, Mean mean) {
     past = 0;
     through = 0;
     for (uint v = 1; v < frame.views; ++v) ask(views[v], x, y, mean.inverse_z);
-    precise const double seen = there + through, missed = past - through;
-    return coverage_by_votes(seen, missed);
+    return coverage_by_votes(there, past, through, mean.covers);
 }
 
 void main() {
