@@ -99,6 +99,58 @@ std::optional<Share> least_share(const Imath::V3d &colour, std::span<const Stran
     return least;
 }
 
+// Something farther than strands, which may be behind them in a pixel.
+struct Ground {
+    double depth; // perceptive
+    Imath::V3d colour;
+    std::optional<std::uint64_t> sample = {}; // of the view, if it shows the colour
+};
+
+std::vector<Ground> grounds_around(const SamplesAround &samples, int x, int y, int reach,
+                                   double strand_depth) {
+    std::vector<Ground> grounds;
+    samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
+        if (samples.depth_of(i) <= strand_depth - WarpTuning::strand_apart_px && samples.is_opaque(i))
+            grounds.push_back({samples.depth_of(i), samples.colour_of(i), i});
+    });
+    return grounds;
+}
+
+// The same surfaces, each once, where other views show what the pixel hides of them.
+std::vector<Ground> grounds_elsewhere(const OtherViews &others, int x, int y,
+                                      std::span<const Ground> around) {
+    std::vector<Ground> grounds;
+    std::vector<double> asked; // depths
+    for (const Ground &ground : around) {
+        const auto is_same = [&](double depth) {
+            return std::abs(depth - ground.depth) < WarpTuning::strand_apart_px;
+        };
+        if (std::ranges::any_of(asked, is_same)) continue;
+        asked.push_back(ground.depth);
+        if (const auto colour = others.colour_behind({x, y}, ground.depth, WarpTuning::strand_apart_px))
+            grounds.push_back({ground.depth, *colour});
+    }
+    return grounds;
+}
+
+// How strands mix with each ground, and the median of these by share.
+std::optional<Mixture> mixture_with(std::span<const Ground> grounds, const Imath::V3d &colour,
+                                    std::span<const Strand> strands, double strand_depth) {
+    struct Way {
+        Share least;
+        const Ground *ground;
+    };
+    std::vector<Way> ways;
+    for (const Ground &ground : grounds)
+        if (const auto least = least_share(colour, strands, ground.colour)) ways.push_back({*least, &ground});
+    if (ways.empty()) return {};
+    const auto middle = ways.begin() + std::ptrdiff_t(ways.size() / 2);
+    std::ranges::nth_element(ways, middle, {}, [](const Way &way) { return way.least.share; });
+    const auto &[least, ground] = *middle;
+    if (ground->sample) return Mixture{strand_depth, ground->depth, least.share, {{*ground->sample, 1}}};
+    return Mixture{strand_depth, ground->depth, least.share, {}, least.strand};
+}
+
 } // namespace
 
 bool among_strands(const SamplesAround &samples, int x, int y) {
@@ -144,39 +196,16 @@ std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
     const double near_depth = own_depth > nearest - WarpTuning::strand_apart_px ? own_depth : nearest;
+    const int reach = others ? 1 : WarpTuning::strand_reach; // a view alone needs more pixels to tell
+    const std::vector<Ground> around = grounds_around(samples, x, y, reach, near_depth);
+    if (around.empty()) return {};
     const Imath::V3d colour = samples.colour_of(own);
-    std::vector<Strand> strands;
-    std::vector<Mixture> all;
-    const auto add = [&](double depth, const Imath::V3d &behind, const std::vector<Term> &terms) {
-        if (strands.empty()) strands = unlit_strands(samples, x, y, near_depth);
-        const auto least = least_share(colour, strands, behind);
-        if (!least) return;
-        all.push_back({near_depth, depth, least->share, terms, {}});
-        if (terms.empty()) all.back().front = least->strand;
-    };
-    const auto around = [&](const auto &visit) {
-        samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
-            if (samples.depth_of(i) <= near_depth - WarpTuning::strand_apart_px && samples.is_opaque(i))
-                visit(i);
-        });
-    };
-    std::vector<double> asked;
+    const std::vector<Strand> strands = unlit_strands(samples, x, y, near_depth);
     if (others)
-        around([&](std::uint64_t i) {
-            const double depth = samples.depth_of(i);
-            if (std::ranges::any_of(
-                    asked, [&](double d) { return std::abs(d - depth) < WarpTuning::strand_apart_px; }))
-                return;
-            asked.push_back(depth);
-            if (const auto behind = others->colour_behind({x, y}, depth, WarpTuning::strand_apart_px))
-                add(depth, *behind, {});
-        });
-    if (all.empty())
-        around([&](std::uint64_t i) { add(samples.depth_of(i), samples.colour_of(i), {{i, 1}}); });
-    if (all.empty()) return {};
-    const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
-    std::ranges::nth_element(all, middle, {}, &Mixture::share);
-    return *middle;
+        if (const auto mixture =
+                mixture_with(grounds_elsewhere(*others, x, y, around), colour, strands, near_depth))
+            return mixture;
+    return mixture_with(around, colour, strands, near_depth);
 }
 
 } // namespace sparselens
