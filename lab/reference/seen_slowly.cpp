@@ -391,6 +391,18 @@ Scene near(const Scene &scene, const Pixel &pixel, long double widest) {
     const auto is_near = [&](const Placed &s) {
         return std::abs(s.x - pixel.x - 0.5L) <= reach && std::abs(s.y - pixel.y - 0.5L) <= reach;
     };
+    // A facet covers nothing outside the box that its corners span when each is moved as far as the lens may move it.
+    const auto may_cover = [&](const std::array<std::size_t, 3> &facet) {
+        long double left = infinity, right = -infinity, top = infinity, bottom = -infinity;
+        for (const std::size_t corner : facet) {
+            const Placed &s = scene.samples[corner];
+            const long double moved = std::abs(s.coc) * widest + 4;
+            left = std::min(left, s.x - moved), right = std::max(right, s.x + moved);
+            top = std::min(top, s.y - moved), bottom = std::max(bottom, s.y + moved);
+        }
+        return left <= pixel.x + 0.5L && right >= pixel.x + 0.5L && top <= pixel.y + 0.5L &&
+               bottom >= pixel.y + 0.5L;
+    };
     Scene part{scene.lens, {}, {}, {}, {}};
     std::vector<std::size_t> place(scene.samples.size(), 0); // index in `part`, plus 1; 0: left out
     for (std::size_t i = 0; i < scene.samples.size(); ++i)
@@ -400,9 +412,11 @@ Scene near(const Scene &scene, const Pixel &pixel, long double widest) {
         }
     std::ranges::copy_if(scene.fillers, std::back_inserter(part.fillers), is_near);
     std::ranges::copy_if(scene.solids, std::back_inserter(part.solids), is_near);
-    for (const auto &[a, b, c] : scene.facets)
-        if (place[a] && place[b] && place[c])
+    for (const auto &facet : scene.facets) {
+        const auto &[a, b, c] = facet;
+        if (place[a] && place[b] && place[c] && may_cover(facet))
             part.facets.push_back({place[a] - 1, place[b] - 1, place[c] - 1});
+    }
     return part;
 }
 
