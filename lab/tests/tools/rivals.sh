@@ -25,3 +25,25 @@ grep -q 'Denoised ray tracing, of as many rays?' all/report/index.html || fail '
 stamp=$(stat -c %Y all/fence/denoise.said)
 exits 0 "$source_dir/lab/rivals" --bin "$bin" --scenes fence --size 96x54 --reference 128 --without 'opendefocus blender' all
 [ "$(stat -c %Y all/fence/denoise.said)" = "$stamp" ] || fail 'what is there is made again'
+
+# lab/denoise, which lab/rivals runs: denoising gains with few rays, changes only colours, and takes time; dof-report
+# measures the result.
+for row in 'denoised ray tracing,,5 rays' 'denoised ray tracing,,320 rays' 'centre + 4 denoised,lens normal,1 sample' 'centre + 4 denoised,lens normal,64 samples'; do
+    grep -qF "fence,$row," all/report/report.csv || fail "report.csv has no $row: $(cut -d , -f 1-4 all/report/report.csv)"
+done
+cd all/fence
+db() { sed -nE "s/^$1: ([0-9.]+) dB.*/\1/p" denoise.said; }
+awk -v a="$(db drt_5.denoised.exr)" -v b="$(db drt_5.exr)" 'BEGIN { exit !(a > b + 2 && b > 10) }' || fail "five rays gain nothing: $(cat denoise.said)"
+for file in view_1 4/center; do
+    picture same $file.exr $file.denoised.exr A,Z >/dev/null || fail "$file has another depth"
+    picture differ $file.exr $file.denoised.exr R,G,B >/dev/null || fail "$file was not denoised"
+    for kind in exr denoised.exr; do exrheader $file.$kind | grep -E '^(focus|worldToCamera|sparselens:)' -A 4 >$kind.txt; done
+    [ -s exr.txt ] || fail "$file has no camera"
+    cmp exr.txt denoised.exr.txt || fail "$file has another camera"
+done
+python3 - <<'PYTHON' || fail "the denoiser takes no time"
+import json
+for folder in ".", "1", "4", "64":
+    seconds = json.load(open(f"{folder}/camera.json"))["seconds"]
+    assert seconds["view_0.denoised.exr"] > seconds["view_0.exr"]
+PYTHON
