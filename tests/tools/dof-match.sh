@@ -29,7 +29,7 @@ oiiotool --info fit.png | grep -q ' 320 x *90,' || fail "--show: $(oiiotool --in
 radius=$(value lens_radius)
 
 # One value may be known: the f-stop, here in a region; 0.125 is a radius of 0.144.
-by_region=("$match" ldi.exr plate.exr --json --fit focus --fstop 0.125 --region 40,10,100,70)
+by_region=("$match" ldi.exr plate.exr --json --fit focus --fstop 0.125 --region 5,10,150,75)
 exits 0 "${by_region[@]}" -o region.json
 holds focus_distance 2.8 3.25
 holds fstop 0.125 0.125

@@ -1,13 +1,14 @@
-"""agree.py BIN_DIR LDI OPTIONS...: a page of dof-view shows, byte by byte, the picture of dof-gather with the same
-options. The command that the page copies for PNG gives the same picture, and the one for EXR writes dof-gather's. LDI
-may be a sequence; then each frame is compared."""
+"""agree.py BIN_DIR LDI OPTIONS... [, LDI OPTIONS... [,]]...: a page of dof-view shows, byte by byte, the picture of
+dof-gather with the same options. The command that the page copies for PNG gives the same picture, and the one for EXR
+writes dof-gather's. LDI may be a sequence; then each frame is compared."""
+import itertools
 import subprocess
 import sys
 
 from png import read_png
 from served import served
 
-folder, ldi, *options = sys.argv[1:]
+folder, *words = sys.argv[1:]
 
 
 def runs(command):
@@ -18,7 +19,7 @@ def runs(command):
     return words.split()[-1]
 
 
-def main():
+def compare(ldi, *options):
     shown = {}
     with served(folder + "/dof-view", ldi, *options) as server:
         for frame in server.said("/facts").get("frames", [None]):
@@ -35,4 +36,10 @@ def main():
             assert file.read(4) == b"\x76\x2f\x31\x01", f"not an EXR file: {for_exr}"
 
 
-main()
+for is_comma, picture in itertools.groupby(words, lambda word: word == ","):
+    if not is_comma:
+        picture = list(picture)
+        try:
+            compare(*picture)
+        except Exception as error:
+            sys.exit(f"{' '.join(picture)}: {type(error).__name__}: {str(error).strip()}")

@@ -454,8 +454,8 @@ def matches_plates(browser):
         page = Page(browser, server)
         browser.until("part('below').width === 160")
         browser.press("r")
-        browser.pointer(("move", *page.at(140, 80)), ("down",), ("move", *page.at(60, 40)), ("move", *page.at(10, 5)), ("up",))
-        assert browser.run("return plate.region") == [10, 5, 140, 80]
+        browser.pointer(("move", *page.at(152, 80)), ("down",), ("move", *page.at(60, 40)), ("move", *page.at(10, 5)), ("up",))
+        assert browser.run("return plate.region") == [10, 5, 152, 80]
         assert "fstop" not in browser.run("return state.settings"), "the drag did more than draw"
         page.shot("region")
         page.does(browser.press, "m")
