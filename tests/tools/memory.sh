@@ -43,7 +43,7 @@ check hair 384 216 1 24
 # the growth.
 check apart 32 1600 1 24
 check tinted 16 1600 1 24 64 # a cell of 32 on each side, much for so narrow a picture
-check volume 16 800 1 24
+check volume 24 800 1 24
 check dense 192 108 0 12
 check volume 96 54 0 12
 # Pictures of usual shape, gathered at once.
