@@ -64,9 +64,9 @@ View encoded(View view) {
 // In grey scenes, and with one sample per pixel, no colour shows it.
 void expect_encoded_colours_are_named(const Shot &shot, const View &view, const std::string &name,
                                       const Sampling &by) {
-    const std::vector<std::string> coloured{"fence",        "grass",   "mirror", "plane-mirror",     "curved-mirrors",
-                                            "glossy-floor", "element", "plate",  "element-in-plate", "macro",
-                                            "scales"};
+    const std::vector<std::string> coloured{
+        "fence",   "grass", "mirror",           "plane-mirror", "curved-mirrors", "glossy-floor",
+        "element", "plate", "element-in-plate", "macro",        "scales"};
     if (std::ranges::find(coloured, name) == coloured.end() || by.samples == by.across * by.across) return;
     const std::string said = said_of({encoded(view)}, shot.facts);
     EXPECT_NE(said.find("mix at edges as sRGB codes do"), std::string::npos) << shot.label << said;
@@ -83,8 +83,9 @@ void expect_wrong_places_are_named(const Shot &shot, std::vector<View> views, co
     for (const Imath::V2d &place : wrong) {
         views[1].position = place;
         const std::string said = said_of(views, shot.facts);
-        EXPECT_NE(said.find("disagrees with the centre view"), std::string::npos) << shot.label << place << "\n"
-                                                                                  << said;
+        EXPECT_NE(said.find("disagrees with the centre view"), std::string::npos)
+            << shot.label << place << "\n"
+            << said;
     }
 }
 
