@@ -95,7 +95,7 @@ std::vector<std::vector<NewPlane>> new_planes(std::span<const PackedView> views,
             const ViewMapping mapping(views[v].position, focal_px, views[v].samples.windows, views[v].framing,
                                       views[0].framing.principal_point);
             layers.push_back(layer_of(views[v], denoised[v], channels, layer, mapping));
-            means.push_back(averaged(layers[v]));
+            means.push_back(averaged(layers[v], scale));
         }
         std::vector<Values> kept;
         for (std::size_t v = 0; v < views.size(); ++v) kept.push_back(kept_details(layers, means, v, scale));

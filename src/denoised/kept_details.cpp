@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
 
@@ -63,6 +65,22 @@ bool shows(const DenoisedLayer &view, const Between &at, double inverse_z, doubl
     const double upper = inverse[0] + double(at.x) * (inverse[1] - inverse[0]);
     const double lower = inverse[2] + double(at.x) * (inverse[3] - inverse[2]);
     return scale * std::abs(upper + double(at.y) * (lower - upper) - inverse_z) < double(one_surface_px);
+}
+
+// The pixels of a square around (x, y), from the corner of the view, that show the same surface as its middle.
+void same_surface_beside(const DenoisedLayer &view, int x, int y, double scale,
+                         std::vector<std::size_t> &found) {
+    const Grid &grid = view.grid;
+    const std::size_t own = grid.index(x, y);
+    const double inverse_z = 1 / double(view.z[own]);
+    constexpr int radius = Tuning::detail_radius;
+    found.clear();
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, grid.height() - 1); ++v)
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, grid.width() - 1); ++u) {
+            const std::size_t i = grid.index(u, v);
+            const double apart = scale * std::abs(1 / double(view.z[i]) - inverse_z);
+            if (i == own || (view.z[i] > 0 && apart < double(one_surface_px))) found.push_back(i);
+        }
 }
 
 class Comparison {
@@ -173,11 +191,24 @@ private:
 
 } // namespace
 
-AveragedLayer averaged(const DenoisedLayer &view) {
+AveragedLayer averaged(const DenoisedLayer &view, double scale) {
     AveragedLayer means{view.noisy, view.denoised};
-    for (Colours *colours : {&means.noisy, &means.denoised})
-        parallel_for(colours->size(),
-                     [&](std::size_t c) { box_mean((*colours)[c], view.grid, Tuning::detail_radius); });
+    const Grid &grid = view.grid;
+    parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
+        std::vector<std::size_t> beside;
+        for (int x = 0; x < grid.width(); ++x) {
+            const std::size_t i = grid.index(x, int(row));
+            same_surface_beside(view, x, int(row), scale, beside);
+            const float share = 1 / float(beside.size());
+            for (const auto &[from, to] :
+                 {std::pair(&view.noisy, &means.noisy), std::pair(&view.denoised, &means.denoised)})
+                for (std::size_t c = 0; c < from->size(); ++c) {
+                    float sum = 0;
+                    for (const std::size_t k : beside) sum += (*from)[c][k];
+                    (*to)[c][i] = share * sum;
+                }
+        }
+    });
     return means;
 }
 

@@ -26,7 +26,7 @@ public:
     // The denoised picture with the details kept from the noisy one.
     Colours taken(std::size_t at) const {
         std::vector<AveragedLayer> means;
-        for (const DenoisedLayer &view : views) means.push_back(averaged(view));
+        for (const DenoisedLayer &view : views) means.push_back(averaged(view, focal_px * radius));
         const Values kept = kept_details(views, means, at, focal_px * radius);
         Colours result = views[at].denoised;
         for (std::size_t c = 0; c < result.size(); ++c)
@@ -112,6 +112,35 @@ TEST(KeptDetails, ALampThatEachDenoisedViewShowsDifferentlyStays) {
                 all.views[v].noisy[c][i] = 100, all.views[v].denoised[c][i] = factors[v] * 100;
     }
     EXPECT_NEAR(all.taken(0)[0][grid.index(30, 20)], 100, 10); // the denoised view has 150
+}
+
+// A denoiser makes a wall without noise a little brighter. Each view has the lamp before another part of the wall.
+TEST(KeptDetails, ALampHidesNothingOfTheWallAroundIt) {
+    Views all(far_away);
+    std::vector<std::vector<float>> depths(5, std::vector<float>(grid.size(), far_away));
+    constexpr double parallax = 5;
+    const auto shows_lamp = [&](std::size_t v, int x, int y) {
+        const Imath::V2d at = all.views[v].mapping.in_view({30.5, 20.5}, parallax / (focal_px * radius));
+        return std::abs(x + 0.5 - at.x) < 2 && std::abs(y + 0.5 - at.y) < 2;
+    };
+    for (std::size_t v = 0; v < 5; ++v) {
+        all.views[v].noisy = constant(0.02f), all.views[v].denoised = constant(0.0204f);
+        for (int y = 0; y < grid.height(); ++y)
+            for (int x = 0; x < grid.width(); ++x) {
+                if (!shows_lamp(v, x, y)) continue;
+                const std::size_t i = grid.index(x, y);
+                depths[v][i] = float(focal_px * radius / parallax);
+                for (Values &channel : all.views[v].noisy) channel[i] = 1000;
+                for (Values &channel : all.views[v].denoised) channel[i] = 900;
+            }
+        all.views[v].z = depths[v];
+    }
+    const Colours taken = all.taken(0);
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x)
+            EXPECT_NEAR(taken[1][grid.index(x, y)], shows_lamp(0, x, y) ? 1000 : 0.02f,
+                        shows_lamp(0, x, y) ? 1 : 2e-5f)
+                << x << ' ' << y;
 }
 
 TEST(KeptDetails, AFireflyOfOneViewGoes) {
