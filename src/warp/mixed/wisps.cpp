@@ -27,8 +27,8 @@ double nearest_beside(const SamplesAround &samples, int x, int y) {
 std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth, double apart) {
     std::vector<std::pair<double, std::uint64_t>> strands;
     samples.around(x, y, WarpTuning::strand_light_reach, [&](std::uint64_t i, int, int) {
-        if (std::abs(samples.depth_of(i) - depth) <= apart && samples.is_opaque(i))
-            strands.push_back({brightness(samples, i), i});
+        if (std::abs(samples.depth_of(i) - depth) > apart || !samples.is_opaque(i)) return;
+        if (const double light = brightness(samples, i); std::isfinite(light)) strands.push_back({light, i});
     });
     if (strands.size() < 3) return {};
     const auto middle = strands.begin() + std::ptrdiff_t(WarpTuning::dim_strand * double(strands.size()));
@@ -66,7 +66,7 @@ std::vector<Strand> unlit_strands(const SamplesAround &samples, int x, int y, do
         if (std::abs(samples.depth_of(i) - depth) > WarpTuning::strand_apart_px || !samples.is_opaque(i))
             return;
         const Imath::V3d colour = samples.colour_of(i);
-        strands.push_back({i, colour, colour.length()});
+        if (const double light = colour.length(); std::isfinite(light)) strands.push_back({i, colour, light});
     });
     if (strands.size() < 3) return strands;
     const auto dim = strands.begin() + std::ptrdiff_t(WarpTuning::dim_strand * double(strands.size()));
@@ -79,7 +79,7 @@ std::vector<Strand> unlit_strands(const SamplesAround &samples, int x, int y, do
 // The strand whose share of the colour is the smallest before `behind`, of those that explain it.
 struct Share {
     double share;
-    std::uint64_t strand;
+    const Strand *strand;
 };
 std::optional<Share> least_share(const Imath::V3d &colour, std::span<const Strand> strands,
                                  const Imath::V3d &behind) {
@@ -94,9 +94,18 @@ std::optional<Share> least_share(const Imath::V3d &colour, std::span<const Stran
         if (off2 * across2 - along * along > most2 * across2) continue;
         if (least && along >= least->share * across2) continue;
         const auto mix = unmix(colour, strand.colour, behind, no_prior, std::sqrt(most2 / across2));
-        if (mix && (!least || mix->share < least->share)) least = {mix->share, strand.sample};
+        if (mix && (!least || mix->share < least->share)) least = {mix->share, &strand};
     }
     return least;
+}
+
+// The share of a strand, or less of it if the rest of the colour would be less than no light in a channel.
+double lit_share(const Imath::V3d &colour, const Share &found) {
+    double share = found.share;
+    for (int k = 0; k < 3; ++k)
+        if (const double light = found.strand->colour[k]; share * light > colour[k])
+            share = std::max(colour[k], 0.0) / light;
+    return share < least_mixed_share ? 0 : share;
 }
 
 // Something farther than strands, which may be behind them in a pixel.
@@ -148,7 +157,7 @@ std::optional<Mixture> mixture_with(std::span<const Ground> grounds, const Imath
     std::ranges::nth_element(ways, middle, {}, [](const Way &way) { return way.least.share; });
     const auto &[least, ground] = *middle;
     if (ground->sample) return Mixture{strand_depth, ground->depth, least.share, {{*ground->sample, 1}}};
-    return Mixture{strand_depth, ground->depth, least.share, {}, least.strand};
+    return Mixture{strand_depth, ground->depth, lit_share(colour, least), {}, least.strand->sample};
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -135,6 +136,8 @@ TEST(Wisps, OtherViewsTellWhatIsBehind) {
         const Image flat = flatten(ldi);
         for (std::size_t i = 0; i < flat.values.size(); ++i)
             EXPECT_NEAR(flat.values[i], views[0].image.values[i], 1e-5);
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_GE(std::ranges::min(ldi.values[k]), -1e-6f); // all is light
         return error / ((size - 8) * (size - 8));
     };
     const OtherViews others(samples, mappings, 0, scale);
