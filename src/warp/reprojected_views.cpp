@@ -90,7 +90,7 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
         some_are_deep_ = some_are_deep_ || samples[v].deep();
         const OtherViews others(samples, mappings, v, scale);
         if (separate && !samples[v].deep())
-            separate_silhouettes(samples[v], scale, jump, crossed[v], &others);
+            separate_silhouettes(samples[v], scale, jump, crossed[v], samples.size() > 1 ? &others : nullptr);
     }
     for (std::size_t v = 0; v < samples.size(); ++v)
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
