@@ -7,8 +7,6 @@ namespace sparselens {
 
 namespace {
 constexpr double least_contrast = 0.1; // between F and B, as a share of their own size
-
-Imath::V3d rgb(const Imath::V4d &c) { return {c[0], c[1], c[2]}; }
 } // namespace
 
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,

@@ -28,6 +28,8 @@ inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 
+inline Imath::V3d rgb(const Imath::V4d &rgba) { return {rgba[0], rgba[1], rgba[2]}; }
+
 // A mixture with a veil behind, whose density changes from pixel to pixel: c = a F + (1 - a) k B. Colours are RGBA, F is
 // opaque, and B covers a part of its pixel.
 struct VeilMix {

@@ -92,6 +92,7 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
         if (separate && !samples[v].deep())
             separate_silhouettes(samples[v], scale, jump, crossed[v], samples.size() > 1 ? &others : nullptr);
     }
+    // Only now, because OtherViews reads all views.
     for (std::size_t v = 0; v < samples.size(); ++v)
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     if (!some_are_deep_) return;

@@ -23,7 +23,6 @@ std::optional<VeilMix> unmix_before(const Imath::V4d &behind, const Imath::V4d &
                                     const MixPrior &prior, double largest_residual) {
     if (!is_opaque(float(behind[3])) || !is_opaque(float(c[3])))
         return unmix_veil(c, front, behind, largest_residual);
-    const auto rgb = [](const Imath::V4d &v) { return Imath::V3d(v[0], v[1], v[2]); };
     const auto mix = unmix(rgb(c), rgb(front), rgb(behind), prior, largest_residual);
     if (!mix) return {};
     return VeilMix{mix->share, 1, mix->residual};

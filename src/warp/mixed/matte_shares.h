@@ -12,7 +12,7 @@
 namespace sparselens {
 
 // Sets the pairs of the last two samples of `out`, which are the two surfaces of a sample of the view. The surface in
-// front is opaque where it is; it is made of the terms `front`, and covers `share`, above 0 and below 1.
+// front hides the other one in its `share` of the pixel, above 0 and below 1. It is made of the terms `front`.
 void share_mattes(const ViewSamples &view, std::uint64_t sample, std::span<const Term> front, double share,
                   std::span<const Matte> mattes, Ldi &out);
 

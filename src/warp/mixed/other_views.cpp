@@ -9,6 +9,11 @@
 
 namespace sparselens {
 
+OtherViews::OtherViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings,
+                       std::size_t own, double scale)
+    : views_(views), mappings_(mappings), own_(own), scale_(scale), rgb_(find_rgb(views[own].channels)),
+      alpha_(views[own].alpha()) {}
+
 // The pixel of a view that shows the surface alone, if it does.
 std::optional<std::size_t> OtherViews::pixel_of(std::size_t view, const Imath::V2d &in_centre, double depth,
                                                 double apart) const {
@@ -24,7 +29,7 @@ std::optional<std::size_t> OtherViews::pixel_of(std::size_t view, const Imath::V
     for (const std::size_t line : {pixel - row, pixel, pixel + row})
         for (const std::size_t i : {line - 1, line, line + 1})
             if (!(samples.pixel(i).empty() || depth_at(i) < depth + apart)) return {};
-    return is_opaque(alpha_at(samples, samples.alpha(), pixel)) ? std::optional(pixel) : std::nullopt;
+    return is_opaque(alpha_at(samples, alpha_, pixel)) ? std::optional(pixel) : std::nullopt;
 }
 
 std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, double depth,
@@ -39,8 +44,7 @@ std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, dou
         if (v == own_ || views_[v].deep()) continue;
         const auto found = pixel_of(v, in_centre, depth, apart);
         if (!found) continue;
-        const auto rgb = find_rgb(views_[v].channels);
-        for (unsigned k = 0; k < 3; ++k) sum[int(k)] += double(views_[v].value(rgb[k], *found));
+        for (unsigned k = 0; k < 3; ++k) sum[int(k)] += double(views_[v].value(rgb_[k], *found));
         ++count;
     }
     if (count == 0) return {};

@@ -4,6 +4,7 @@
 #include "deep/view_samples.h"
 #include "view/view_mapping.h"
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -11,11 +12,11 @@ namespace sparselens {
 
 class OtherViews {
 public:
-    // `views` and `mappings` are those of all views, and outlive this. `own` is the one that mixes the surfaces. `scale`
-    // is R F, pixels times scene units. Only samples that the views had at first are read: see ViewSamples::replace().
+    // `views` and `mappings` are those of all views, which have the same channels; they must outlive this. `own` is the
+    // view that mixes the surfaces. `scale` is R F, pixels times scene units. It reads only the samples that the views had
+    // at first: see ViewSamples::replace().
     OtherViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings, std::size_t own,
-               double scale)
-        : views_(views), mappings_(mappings), own_(own), scale_(scale) {}
+               double scale);
 
     // Returns the colour of the surface at that perceptive depth, where the ray of the own view's pixel (from the
     // window's corner) meets it: the mean over the other flat views that show the surface there, opaque, and nothing
@@ -30,6 +31,8 @@ private:
     std::span<const ViewMapping> mappings_;
     std::size_t own_;
     double scale_;
+    std::array<std::size_t, 3> rgb_;
+    std::size_t alpha_;
 };
 
 } // namespace sparselens

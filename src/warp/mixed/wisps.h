@@ -9,8 +9,8 @@
 //     brightest pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single
 //     strand crosses.
 //   - Else B is what other views show behind the strands, or a farther pixel around if all of them are mixed there, too.
-//     F is the strand that leaves the strands the smallest share among those that explain the colour with B, because
-//     most pixels of strands are mixed. The median over all B decides.
+//     F is the strand with the smallest share, among those around that explain the colour with B, because most pixels of
+//     strands are mixed. The median over all B decides.
 #pragma once
 
 #include "deep/build.h"
