@@ -36,11 +36,11 @@ Decibels decibels(const Image &image, const Image &reference) {
     return {figures[1].psnr_tonemapped, figures[2].psnr_tonemapped};
 }
 
-Image gather(const Ldi &ldi, const SceneCamera &scene, Quality quality = Quality::final, int across = 1) {
+Image gather(const Ldi &ldi, const SceneCamera &scene,
+             const LensGatherOptions &by = {.quality = Quality::final}) {
     Progress silent;
     PictureOptions options;
-    options.gather.lens.quality = quality;
-    options.gather.lens.across = across;
+    options.gather.lens = by;
     const Imath::Box2i &window = scene.settings.windows.data;
     return gather_picture(ldi, scene.settings.lens, window, window, options, silent);
 }
@@ -63,7 +63,7 @@ Ldi warped(const std::vector<View> &views, const SceneCamera &scene, int across 
 constexpr int twice = 2;
 Image doubled(const SceneCamera &scene) {
     const Ldi ldi = warped(views_of(scene, 16 / (twice * twice)), scene, twice);
-    return mean_of_subpixels(gather(ldi, scene, Quality::normal, twice), {twice}, {{0, 0}, {239, 134}});
+    return mean_of_subpixels(gather(ldi, scene, {.across = twice}), {twice}, {{0, 0}, {239, 134}});
 }
 
 Image reference_of(const std::string &name, const SceneCamera &scene) {
@@ -91,7 +91,8 @@ TEST_P(Floors, Hold) {
     const Image reference = reference_of(measured.scene, scene);
     const std::vector<View> views = views_of(scene);
     const Image five = gather(warped(views, scene), scene),
-                one = gather(ViewSamples(views[0], views[0].image.channels).as_ldi(), scene);
+                one = gather(ViewSamples(views[0], views[0].image.channels).as_ldi(), scene,
+                             {.quality = Quality::final, .one_view = true});
     const MeasuredScene now{measured.scene, decibels(five, reference), decibels(one, reference),
                             double(std::ranges::min(five.plane(3)))};
     std::printf("{\"%s\", {%.2f, %.2f}, {%.2f, %.2f}, %.4f},\n", now.scene, now.five_views.inside,

@@ -1,20 +1,22 @@
 #include "dof/lens/filler_samples.h"
 
 #include "base/parallel.h"
+#include "kernels/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sparselens {
 
 namespace {
 
-PlacedSample placed(const ThinLens &lens, const Filler &filler, int x, int y, std::uint32_t number) {
+PlacedSample placed(const ThinLens &lens, const Filler &filler, int x, int y, std::uint32_t source) {
     return {float(x) + 0.5f,
             float(y) + 0.5f,
             float(circle_of_confusion(lens, double(filler.z))),
             float(perceptive_depth(lens, double(filler.z))),
             1,
-            filler.is_nothing() ? BlockedSamples::background : number};
+            source};
 }
 
 // Finds the filler of a pixel.
@@ -40,6 +42,25 @@ private:
     std::vector<std::size_t> begin_; // of each `pixels_at_once` consecutive pixels; and the end
 };
 
+// Whether a sample of a pixel is one surface with samples of most pixels in the square of three by three around it.
+bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint64_t sample) {
+    const auto depth = [&](std::uint64_t i) { return perceptive_depth(lens, double(ldi.z[i])); };
+    const auto shows_it = [&](std::size_t p) {
+        for (const std::uint64_t i : ldi.pixel(p))
+            if (std::abs(depth(i) - depth(sample)) <= double(one_surface_px)) return true;
+        return false;
+    };
+    const Imath::V2i at = ldi.windows.pixel(pixel);
+    int all = 0, same = 0;
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+        for (int x = at.x - 1; x <= at.x + 1; ++x) {
+            if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
+            ++all;
+            same += shows_it(ldi.windows.index(x, y));
+        }
+    return 2 * same > all;
+}
+
 } // namespace
 
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
@@ -51,7 +72,9 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
     };
     const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
         if (const Filler *f = by_pixel.at(x, y))
-            found.push_back(placed(lens, *f, x, y, std::uint32_t(f - fillers.data())));
+            found.push_back(
+                placed(lens, *f, x, y,
+                       f->is_nothing() ? BlockedSamples::background : std::uint32_t(f - fillers.data())));
     };
     FillerSamples result{make_blocks(ldi.windows, is_there, place), {}};
     const std::size_t count = result.samples.count();
@@ -67,6 +90,33 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
         }
     });
     return result;
+}
+
+BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
+                                    const BlockedSamples &samples,
+                                    std::span<const std::uint32_t> highlights) {
+    if (fillers.empty()) return {};
+    std::vector<char> hides(fillers.size());
+    parallel_ranges(fillers.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f)
+            hides[f] = !fillers[f].is_nothing() &&
+                       std::ranges::any_of(fillers[f].parts(), [&](const Filler::Part &part) {
+                           return is_wide(ldi, lens, part.pixel, part.sample) &&
+                                  !std::ranges::binary_search(
+                                      highlights, place_of(samples, ldi, part.pixel, part.sample));
+                       });
+    });
+    const FillersByPixel by_pixel(fillers, ldi.windows);
+    const auto hiding_at = [&](int x, int y) {
+        const Filler *f = by_pixel.at(x, y);
+        return f && hides[std::size_t(f - fillers.data())] ? f : nullptr;
+    };
+    const auto is_there = [&](int x, int y) { return hiding_at(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
+    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
+        if (const Filler *f = hiding_at(x, y))
+            found.push_back(placed(lens, *f, x, y, std::uint32_t(ldi.pixel(f->pixel).front())));
+    };
+    return make_blocks(ldi.windows, is_there, place);
 }
 
 } // namespace sparselens

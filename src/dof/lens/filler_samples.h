@@ -1,4 +1,4 @@
-// Fillers as the lens gather needs them: in blocks, with their colours.
+// Fillers as the lens gather needs them: in blocks, with their colours; and those that hide lamps.
 #pragma once
 
 #include "dof/lens/fillers.h"
@@ -18,5 +18,13 @@ struct FillerSamples {
 // colours, so no lamp continues behind anything.
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                             const BlockedSamples &samples, const SampleColours &colours);
+
+// Returns the fillers that hide lamps in a picture of one view (highlight_shadows.h). A lens point that looks past the
+// end of a surface, behind what is nearer, would see a far lamp there. No view says that the surface has an end, so no
+// lamp shines there. A filler hides lamps if its ground, where it ends, is one surface with most of the three by three
+// pixels around: a thinner one may be hair, which covers less than its pixels show. The ground must not be a highlight
+// itself. `samples`, `highlights`: as in Highlights::sample. The result's `source` is the front sample of the pixel.
+BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
+                                    const BlockedSamples &samples, std::span<const std::uint32_t> highlights);
 
 } // namespace sparselens

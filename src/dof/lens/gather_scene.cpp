@@ -83,13 +83,15 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
     treat();
+    scene.solids = scene.one_view
+                       ? place_hiding_fillers(ldi, scene.lens, fillers, samples, scene.highlights.sample)
+                       : place_solids(ldi, scene.lens, samples);
+    optics.bend(scene.solids);
     scene.fillers = place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours);
     optics.bend(scene.fillers.samples);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
                                 {samples.x, samples.y, samples.hiding_coc(), samples.upper, samples.source});
-    scene.solids = place_solids(ldi, scene.lens, samples);
-    optics.bend(scene.solids);
 }
 
 // The share of each sample's light that highlights leave; empty: all of it.
@@ -141,6 +143,7 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
                     const LensGatherOptions &options, double coc, const Progress &progress) {
     GatherScene scene = placed_for(ldi, lens, window, options, coc);
     scene.held_out.by = options.holdout;
+    scene.one_view = options.one_view;
     if (is_sharp(scene.samples, *scene.optics)) return scene;
     progress.may_end();
     const auto treat = [&] {
@@ -173,6 +176,7 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const LensLooks looks = smaller(scene.optics->looks, large.windows, small->windows, across);
     GatherScene coarse =
         placed(*small, lens, looks, scene.optics->coc / across, {small->windows.data, unseen});
+    coarse.one_view = scene.one_view;
     complete(coarse, [] {}, {});
     coarse.known.unseen = {};
     for (std::size_t k = 0; k < small->values.size(); ++k)

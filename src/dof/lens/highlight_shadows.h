@@ -15,6 +15,8 @@
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide.
+//
+// In a picture of one view, fillers take the place of solids (filler_samples.h).
 #pragma once
 
 #include "dof/lens/highlights.h"

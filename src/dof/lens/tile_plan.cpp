@@ -36,7 +36,7 @@ TileTask PlannedTile::task() const {
             from.facets,
             from.fillers,
             lens,
-            from.solids,
+            scene->one_view ? std::span<const std::uint32_t>() : from.solids,
             cells ? cells->count() : lens_tile_size};
 }
 
