@@ -1,7 +1,5 @@
 #include "harness/frame_run.h"
 #include "harness/in_turn.h"
-#include "harness/neighbours.h"
-#include "harness/two_at_once.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include "harness/history.h"
-#include "harness/up_to_date.h"
 #include "io/exr/exr_flat.h"
 #include "support/scratch_folder.h"
 

@@ -3,13 +3,19 @@
 // files appear and exit codes come as if frames ran one at a time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <future>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
 
@@ -56,6 +62,50 @@ private:
     std::size_t begun_ = 0, turns_ = 0, ended_ = 0; // counts of frames; the first ones have done so
     bool stopped_ = false;
     int worst_ = 0;
+};
+
+// Finds which frames of a range share something that one frame keeps for the next, from what their jobs declare
+// (Job::keeps in tool.h).
+class FrameNeighbours {
+public:
+    // `keeps`: what each frame keeps; "" means nothing, an empty optional that the job does not say.
+    explicit FrameNeighbours(std::vector<std::optional<std::string>> keeps) : keeps_(std::move(keeps)) {}
+
+    bool keeps_for_next(std::size_t i) const { return i + 1 < keeps_.size() && same(i, i + 1); }
+    // Whether a frame takes nothing from the frame before it, so that both may be worked on at the same time.
+    bool are_apart(std::size_t i) const { return i > 0 && keeps_[i] && !same(i - 1, i); }
+
+private:
+    bool same(std::size_t i, std::size_t next) const { return keeps_[i] == keeps_[next] && keeps_[i] != ""; }
+
+    std::vector<std::optional<std::string>> keeps_;
+};
+
+// Decides whether two frames fit into memory at the same time. Estimates a frame's memory from the size of its files,
+// with the largest memory per byte that earlier frames took.
+class TwoAtOnce {
+public:
+    // `bytes`: size of the files that each frame reads, 0 if unknown. `memory`: limit for both frames, in bytes.
+    TwoAtOnce(std::vector<std::uint64_t> bytes, std::uint64_t memory)
+        : bytes_(std::move(bytes)), memory_(double(memory)) {}
+
+    // Whether frame i may run beside the frame before it. Call for each frame in order, before it begins; `peak` is the
+    // largest memory use of the process so far, in bytes. The first two frames run alone, to measure what one takes.
+    bool fit(std::size_t i, std::uint64_t peak) {
+        if (i == 2) per_byte_ = double(peak) / of(0);
+        if (i > 2) per_byte_ = std::max(per_byte_, double(peak) / most_at_once_);
+        const double both = i > 0 ? of(i - 1) + of(i) : 0;
+        const bool two = i >= 2 && per_byte_ * both <= memory_;
+        most_at_once_ = std::max(most_at_once_, two ? both : of(i));
+        return two;
+    }
+
+private:
+    double of(std::size_t i) const { return double(std::max<std::uint64_t>(bytes_[i], 1)); }
+
+    std::vector<std::uint64_t> bytes_;
+    double memory_;
+    double per_byte_ = 0, most_at_once_ = 0;
 };
 
 } // namespace sparselens

@@ -61,7 +61,7 @@ struct Job {
     // The files that the work reads besides those that its options name.
     std::function<std::vector<std::string>(const ToolContext &)> also_reads = {};
     // Whether it makes one output of the moments of a shutter, whose files one name with %s names. Other tools run once
-    // for each moment (commands/each_moment.h).
+    // for each moment (commands/each_picture.h).
     bool joins_moments = false;
 };
 

@@ -27,4 +27,15 @@ bool is_output_with(const std::string &placeholder, const std::vector<std::strin
 std::vector<std::string> words_for_one(const EachPicture &each, std::vector<std::string> words,
                                        const std::string &name);
 
+// Whether a command asks for one output for each moment: its output has %s in its name. It is run once for each moment
+// of a shutter whose first input exists (io/moment_files.h).
+bool asks_for_each_moment(const std::vector<std::string> &words);
+
+// The words for each moment. The moments are those of the first input with %s, at the first frame. If no input has %s,
+// or the inputs with %s are files of that very name, %s stands for itself. Throws as moments_on_disk() does.
+std::vector<std::vector<std::string>> words_for_moments(const std::vector<std::string> &words);
+
+// Throws UsageError if an input has %s, for tools that make one output of one moment.
+void refuse_moments(const std::vector<std::string> &words);
+
 } // namespace sparselens
