@@ -1,9 +1,8 @@
-#include "python/finish.h"
-
 #include "base/error.h"
 #include "finish/finish_picture.h"
 #include "io/render_samples.h"
 #include "python/job.h"
+#include "python/verbs.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,8 @@
-#include "python/gather.h"
-
 #include "chain/take_moments.h"
 #include "python/job.h"
 #include "python/keywords.h"
 #include "python/told.h"
+#include "python/verbs.h"
 
 namespace sparselens::python {
 

@@ -1,8 +1,7 @@
-#include "python/match.h"
-
 #include "base/error.h"
 #include "chain/match_frames.h"
 #include "python/job.h"
+#include "python/verbs.h"
 
 #include <fmt/format.h>
 

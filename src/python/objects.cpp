@@ -6,7 +6,7 @@
 #include "io/camera/camera_read.h"
 #include "python/arrays.h"
 #include "python/from_arrays.h"
-#include "python/write.h"
+#include "python/verbs.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

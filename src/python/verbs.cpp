@@ -1,3 +1,5 @@
+#include "python/verbs.h"
+
 #include "base/error.h"
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
@@ -11,13 +13,9 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
-#include "python/finish.h"
-#include "python/gather.h"
 #include "python/job.h"
-#include "python/match.h"
 #include "python/objects.h"
 #include "python/told.h"
-#include "python/write.h"
 
 #include <pybind11/stl.h>
 #include <sparselens_docs.h>

@@ -1,5 +1,3 @@
-#include "python/write.h"
-
 #include "base/error.h"
 #include "chain/words.h"
 #include "io/camera/camera_write.h"
@@ -9,6 +7,7 @@
 #include "io/output_name.h"
 #include "python/arrays.h"
 #include "python/job.h"
+#include "python/verbs.h"
 
 #include <fmt/format.h>
 
