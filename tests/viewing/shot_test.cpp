@@ -2,8 +2,8 @@
 #include "support/ldi_samples.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
-#include "viewing/lens_guess.h"
 #include "viewing/shot.h"
+#include "viewing/shot_frame.h"
 #include "viewing/view_facts.h"
 #include "viewing/view_words.h"
 

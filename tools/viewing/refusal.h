@@ -1,6 +1,11 @@
 // The answer of dof-view, to the page or in a pipe, to a request that failed.
 #pragma once
 
+#include "base/error.h"
+#include "harness/one_line.h"
+
+#include <exception>
+#include <new>
 #include <string>
 
 namespace sparselens {
@@ -11,6 +16,16 @@ struct Refusal {
 };
 
 // Describes the exception that is being handled: call it in a catch block, for exceptions derived from std::exception.
-Refusal refusal_of_exception();
+inline Refusal refusal_of_exception() {
+    try {
+        throw;
+    } catch (const UsageError &error) {
+        return {400, with_options(error.what())};
+    } catch (const std::bad_alloc &) {
+        return {500, "there is not enough memory for this"};
+    } catch (const std::exception &error) {
+        return {500, with_options(error.what())};
+    }
+}
 
 } // namespace sparselens

@@ -5,6 +5,7 @@
 #include "io/display/colour.h"
 #include "io/open_ldi.h"
 #include "options/gather_options.h"
+#include "viewing/view_words.h"
 
 #include <cstdint>
 #include <map>
@@ -45,5 +46,13 @@ ShotFrame pack(OpenedLdi in); // sets only `in` and `packed`
 
 // Throws Error if the file has no R, G and B, which the page shows.
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);
+
+// An initial lens if neither the file nor the command line gives one; the page is there to choose another. Options of
+// dof-gather for what is unknown: 50 mm before a sensor 36 mm wide, f/2.8, focused on the middle of the picture. Empty
+// if all is known.
+Words lens_guess(const ShotFrame &frame, const Camera &camera);
+
+// The same in words for people; empty for no options.
+std::string guess_in_words(const Words &guess);
 
 } // namespace sparselens

@@ -5,7 +5,7 @@
 #include "chain/match_lens.h"
 #include "io/moment_files.h"
 #include "options/match_json.h"
-#include "viewing/lens_guess.h"
+#include "viewing/shot_frame.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
