@@ -1,7 +1,6 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "base/error.h"
 #include "chain/file_notices.h"
-#include "chain/plan_moments.h"
 #include "chain/plan_views.h"
 #include "chain/usd_shot.h"
 #include "harness/commands/named_files.h"

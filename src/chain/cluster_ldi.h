@@ -2,7 +2,7 @@
 // clusters.
 #pragma once
 
-#include "chain/recolor_ldi.h"
+#include "chain/flat_light.h"
 #include "deep/cluster.h"
 
 #include <optional>

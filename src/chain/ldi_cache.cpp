@@ -2,7 +2,7 @@
 
 #include "chain/channels.h"
 #include "chain/file_notices.h"
-#include "chain/recolor_ldi.h"
+#include "chain/flat_light.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/front_samples.h"
 #include "io/camera/camera_read.h"

@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/in_order.h"
-#include "chain/denoised.h"
 #include "chain/devices.h"
 #include "chain/file_notices.h"
+#include "chain/flat_light.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/rounded.h"
 #include "io/camera/camera_write.h"

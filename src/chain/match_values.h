@@ -1,11 +1,14 @@
-// The values of a matched lens, from what the search found, and the ranges that should hold the true ones.
+// The values of a matched lens, from what the search found, and the ranges that should hold the true ones; and why they
+// may be wrong.
 #pragma once
 
 #include "chain/match_lens.h"
 #include "chain/match_pictures.h"
+#include "match/evidence.h"
 
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace sparselens {
 
@@ -22,5 +25,10 @@ std::optional<double> stops_by_radius(const Camera &camera);
 
 // The ranges, from the values and their deviations; and the f-stop.
 void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius);
+
+// Why the values that a search found are not those of the plate's lens, and what to do; empty: there is no doubt.
+// `is_ambiguous`: another lens fits as well.
+std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &fit, const Evidence &evidence,
+                     bool is_ambiguous);
 
 } // namespace sparselens

@@ -1,12 +1,14 @@
-// Plans which views are worth rendering in addition to the centre view.
+// Plans which views are worth rendering in addition to the centre view, and how many moments of a shutter.
 #pragma once
 
 #include "chain/notices.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
+#include "plan/moments_needed.h"
 #include "plan/plan.h"
 #include "plan/rectangles.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace sparselens {
@@ -21,5 +23,12 @@ struct PlannedViews {
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, std::optional<int> rays, Progress &progress,
                         const Tell &tell);
+
+// Tells from the centre views of a shutter's moments how many moments it needs (plan/moments_needed.h). `first` and
+// `last` are the first and the last of so many moments, at least 2, with the lens of the plan. The camera's motion
+// follows from their matrices, if they have them; else all motion is found in the pictures. Empty if the pictures do
+// not tell. Throws Error, naming both files, if their sizes differ.
+std::optional<MomentsNeed> plan_moments(const OpenedView &first, const OpenedView &last, std::size_t moments,
+                                        const PlannedViews &planned, const LensValues &lens);
 
 } // namespace sparselens

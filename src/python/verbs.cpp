@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
-#include "chain/plan_moments.h"
+#include "chain/plan_views.h"
 #include "chain/regions.h"
 #include "chain/take_picture.h"
 #include "deep/flatten.h"

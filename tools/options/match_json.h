@@ -2,7 +2,6 @@
 #pragma once
 
 #include "chain/match_lens.h"
-#include "chain/match_shape.h"
 
 #include <nlohmann/json.hpp>
 
