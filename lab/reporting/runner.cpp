@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "io/files/folder.h"
-#include "io/files/json_file.h"
 #include "io/files/text_file.h"
 #include "lab/reporting/files.h"
 #include "lab/reporting/process.h"

@@ -1,7 +1,7 @@
 #include "lab/tracing/camera_json.h"
 
 #include "base/error.h"
-#include "io/files/json_file.h"
+#include "io/files/text_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #include "chain/picture_looks.h"
 
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 #include "view/resolve_looks.h"
 
 #include <ImfStringAttribute.h>

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "io/aperture_file.h"
 #include "io/files/file_stream.h"
-#include "io/files/json_file.h"
+#include "io/files/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "io/moment_files.h"
 
 #include "base/error.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 
 #include <ImfIntAttribute.h>
 #include <fmt/format.h>

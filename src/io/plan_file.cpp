@@ -5,7 +5,6 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "io/files/folder.h"
-#include "io/files/json_file.h"
 #include "io/files/text_file.h"
 #include "plan/rectangles.h"
 

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "harness/one_line.h"
 #include "io/exr/exr_header_check.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 #include "io/files/file_stream.h"
 
 #include <CLI/CLI.hpp>

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
-#include "io/files/json_file.h"
+#include "io/files/text_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

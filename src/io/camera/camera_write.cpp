@@ -1,7 +1,7 @@
 #include "io/camera/camera_write.h"
 
 #include "io/camera/camera_attributes.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>

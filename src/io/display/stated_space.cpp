@@ -1,6 +1,6 @@
 #include "io/display/stated_space.h"
 
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfStandardAttributes.h>

@@ -11,7 +11,7 @@
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 #include "io/exr/kept_names.h"
 #include "io/files/memory_limit.h"
 #include "io/files/open_exr.h"

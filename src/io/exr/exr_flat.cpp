@@ -4,7 +4,6 @@
 #include "deep/channel_alpha.h"
 #include "deep/premultiply.h"
 #include "io/exr/depth_channel.h"
-#include "io/exr/depth_file.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"

@@ -6,7 +6,7 @@
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_mattes.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 #include "io/exr/kept_names.h"
 #include "io/exr/luminance_chroma.h"
 

@@ -1,7 +1,7 @@
 #include "io/exr/kept_names.h"
 
 #include "base/channel_names.h"
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 
 #include <ImfStringVectorAttribute.h>
 

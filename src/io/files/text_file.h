@@ -1,6 +1,8 @@
-// Whole files as strings: text, or any other bytes.
-// Errors (Error) name the file and the system's reason.
+// Whole files as strings, which are text or any other bytes, or as JSON. Errors (Error) name the file and the system's
+// reason.
 #pragma once
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <string_view>
@@ -15,5 +17,12 @@ std::string read_bytes(const std::string &path);
 
 // Writes the file; it appears complete or not at all (see OutputFile). `-` stands for standard output.
 void write_text_file(const std::string &path, std::string_view contents);
+
+// A JSON file, which others may have written. Throws Error if it is not JSON, or is nested deeper than 32 levels,
+// because code that works on the values is recursive.
+nlohmann::json read_json_file(const std::string &path);
+
+// A value as an error message shows it: a long one is cut off.
+std::string shown_in_message(const nlohmann::json &value);
 
 } // namespace sparselens

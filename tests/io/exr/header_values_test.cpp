@@ -1,4 +1,4 @@
-#include "io/exr/header_edit.h"
+#include "io/exr/header_values.h"
 
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
