@@ -1,6 +1,6 @@
 #include "lab/reporting/files.h"
 
-#include "io/files/folder.h"
+#include "io/files/file_stream.h"
 #include "io/files/text_file.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "chain/regions.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/folder.h"
+#include "io/files/file_stream.h"
 #include "io/files/text_file.h"
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"

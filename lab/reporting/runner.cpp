@@ -1,7 +1,7 @@
 #include "lab/reporting/runner.h"
 
 #include "base/error.h"
-#include "io/files/folder.h"
+#include "io/files/file_stream.h"
 #include "io/files/text_file.h"
 #include "lab/reporting/files.h"
 #include "lab/reporting/process.h"

@@ -3,7 +3,7 @@
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/folder.h"
+#include "io/files/file_stream.h"
 #include "io/files/text_file.h"
 #include "io/render_samples.h"
 #include "lab/trace/camera_at.h"

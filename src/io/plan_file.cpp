@@ -4,7 +4,6 @@
 #include "base/grid.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
-#include "io/files/folder.h"
 #include "io/files/text_file.h"
 #include "plan/rectangles.h"
 

@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "harness/man_page.h"
 #include "harness/one_line.h"
+#include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
-#include "io/files/unfinished.h"
 
 #include <CLI/CLI.hpp>
 #include <ImfThreading.h>

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "harness/one_line.h"
-#include "io/files/system_error.h"
+#include "io/files/file_stream.h"
 #include "viewing/gatherer.h"
 #include "viewing/pipe_request.h"
 #include "viewing/refusal.h"

@@ -1,7 +1,7 @@
 #include "io/exr/exr_header_check.h"
 
 #include "base/error.h"
-#include "io/files/not_exr.h"
+#include "io/files/file_stream.h"
 
 #include <fmt/format.h>
 

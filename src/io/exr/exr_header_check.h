@@ -13,7 +13,7 @@
 namespace sparselens {
 
 // Throws Error, naming the file and the attribute, if an attribute is larger than the file or does not have the size of
-// its type, if the header does not end, or if the file is not an EXR file (not_exr.h). A file of fewer than 8 bytes is
+// its type, if the header does not end, or if the file is not an EXR file (not_exr()). A file of fewer than 8 bytes is
 // left for OpenEXR to report. Leaves the stream at its beginning.
 void check_header(InputStream &in, const std::string &path);
 

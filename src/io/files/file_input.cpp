@@ -1,13 +1,13 @@
 #include "base/error.h"
 #include "io/files/file_stream.h"
-#include "io/files/not_exr.h"
-#include "io/files/system_error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -158,6 +158,20 @@ std::vector<char> read_whole(const std::string &path, int descriptor, Content co
     return bytes;
 }
 
+using namespace std::string_view_literals;
+
+struct Format {
+    std::string_view begins, name;
+};
+constexpr std::array<Format, 8> formats{{{"\x89PNG"sv, "a PNG"},
+                                         {"\xff\xd8\xff"sv, "a JPEG"},
+                                         {"II*\0"sv, "a TIFF"},
+                                         {"MM\0*"sv, "a TIFF"},
+                                         {"SDPX"sv, "a DPX"},
+                                         {"XPDS"sv, "a DPX"},
+                                         {"#?RADIANCE"sv, "a Radiance"},
+                                         {"#?RGBE"sv, "a Radiance"}}};
+
 } // namespace
 
 std::unique_ptr<InputStream> open_input(const std::string &path, Content content) {
@@ -177,6 +191,16 @@ std::unique_ptr<InputStream> open_input(const std::string &path, Content content
         return std::make_unique<FileInput>(path, file, std::uint64_t(info.st_size));
     }
     return in_memory(descriptor);
+}
+
+std::string not_exr(std::string_view first_bytes) {
+    for (const Format &format : formats)
+        if (first_bytes.starts_with(format.begins))
+            return fmt::format(
+                "is {} picture, and EXR is needed: render to EXR, with depth, or convert what needs "
+                "no depth (oiiotool IN -o OUT.exr)",
+                format.name);
+    return "not an EXR file";
 }
 
 } // namespace sparselens

@@ -1,19 +1,43 @@
 #include "io/files/file_stream.h"
 
-#include "io/files/folder.h"
-#include "io/files/system_error.h"
+#include "base/error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 namespace sparselens {
+
+namespace {
+
+std::array<std::atomic<const char *>, 64> paths{};
+static_assert(std::atomic<const char *>::is_always_lock_free, "a signal handler cannot wait for locks");
+
+} // namespace
+
+Unfinished::Unfinished(std::string path) : path_(std::move(path)), slot_(0) {
+    for (; slot_ < paths.size(); ++slot_) {
+        const char *none = nullptr;
+        if (paths[slot_].compare_exchange_strong(none, path_.c_str())) return;
+    }
+}
+
+Unfinished::~Unfinished() {
+    if (slot_ < paths.size()) paths[slot_] = nullptr;
+}
+
+void remove_unfinished() noexcept {
+    for (const auto &path : paths)
+        if (const char *name = path) ::unlink(name);
+}
 
 namespace {
 
@@ -51,6 +75,10 @@ std::filesystem::path follow_links(const std::string &path) {
 bool is_standard_stream(const std::string &path) { return path == "-"; }
 
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
+
+void fail_of_system(const std::string &path, const std::string &what) {
+    throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
+}
 
 // Collects bytes. If there is a temporary file, it writes them to it in large pieces.
 class OutputFile::Buffer : public Imf::OStream {
@@ -138,6 +166,12 @@ void OutputFile::commit() {
     if (::rename(temporary_->path().c_str(), target_.c_str()) != 0)
         fail_of_system(path_, "cannot rename the finished file");
     temporary_.reset();
+}
+
+void make_folder(const std::string &path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) throw Error(path + ": cannot create the folder: " + error.message());
 }
 
 } // namespace sparselens

@@ -6,16 +6,34 @@
 // Throws Error, naming the file and the reason of the system.
 #pragma once
 
-#include "io/files/unfinished.h"
-
 #include <ImfIO.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sparselens {
+
+// The temporary files of unfinished outputs, so that a process told to stop can remove them. Only SIGKILL or a crash
+// leaves one. For its lifetime the file counts as unfinished; at most 64 files are remembered at a time.
+class Unfinished {
+public:
+    explicit Unfinished(std::string path);
+    ~Unfinished();
+    Unfinished(const Unfinished &) = delete;
+    Unfinished &operator=(const Unfinished &) = delete;
+
+    const std::string &path() const { return path_; }
+
+private:
+    std::string path_;
+    std::size_t slot_;
+};
+
+// Unlinks all unfinished files; safe in a signal handler.
+void remove_unfinished() noexcept;
 
 class InputStream : public Imf::IStream {
 public:
@@ -71,5 +89,15 @@ bool is_standard_stream(const std::string &path);
 
 // The name of the file in messages.
 std::string display_name(const std::string &path);
+
+// Creates the folder and its missing parents. Throws Error, naming it, if that fails.
+void make_folder(const std::string &path);
+
+// Throws Error with the file, the action that failed, and the reason that the last system call gave (errno).
+[[noreturn]] void fail_of_system(const std::string &path, const std::string &what);
+
+// The error message for a file that is not an EXR file. Judges by its first 8 bytes or more: names the usual picture
+// format that the file has, and what to do; otherwise "not an EXR file".
+std::string not_exr(std::string_view first_bytes);
 
 } // namespace sparselens

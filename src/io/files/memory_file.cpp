@@ -1,6 +1,6 @@
 #include "io/files/memory_file.h"
 
-#include "io/files/system_error.h"
+#include "io/files/file_stream.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
