@@ -4,7 +4,7 @@
 #include "harness/examples.h"
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
-#include "shutter/rolling_shutter.h"
+#include "shutter/shutter_curve.h"
 #include "view/resolve_looks.h"
 
 #include <CLI/CLI.hpp>

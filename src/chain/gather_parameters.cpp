@@ -1,5 +1,5 @@
 #include "chain/parameter_rows.h"
-#include "shutter/rolling_shutter.h"
+#include "shutter/shutter_curve.h"
 
 namespace sparselens {
 

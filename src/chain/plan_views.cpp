@@ -7,7 +7,6 @@
 #include "io/moment_files.h"
 #include "io/render_samples.h"
 #include "plan/noise.h"
-#include "plan/noise_of_rays.h"
 #include "view/camera_motion.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "io/moment_files.h"
 #include "io/shutter_file.h"
 #include "shutter/lamp_paths.h"
-#include "shutter/rolling_shutter.h"
+#include "shutter/shutter_curve.h"
 #include "shutter/shutter_mean.h"
 
 #include <algorithm>

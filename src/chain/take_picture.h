@@ -35,7 +35,7 @@ struct PictureRequest : LdiRequest {
     bool front_depth = false;       // also return the depth of the front samples
     std::string device = "cpu";     // as for choose_device() of gpu/device_list.h
     std::string shutter_curve = {}; // for take_moments(), as in io/shutter_file.h; empty: a box
-    double rolling_shutter = 1;     // for take_moments(): its duration (shutter/rolling_shutter.h)
+    double rolling_shutter = 1;     // for take_moments(): its duration (shutter/shutter_curve.h)
 };
 
 // The false colours of an LDI for that lens, for coc, focus and layers.

@@ -1,4 +1,4 @@
-// The noise of a rendered picture, and how much of it a lens leaves.
+// The noise of a rendered picture, and how much of it a lens leaves; and that of rays through the lens.
 //
 // Two things distinguish noise from texture. Its second differences are as large along every direction, while those of
 // texture are small along its edges. And they are Gaussian (the quartile and the median of their magnitudes are in the
@@ -21,5 +21,17 @@ namespace sparselens {
 // deviation of the noise, tone-mapped, if known instead of measured.
 std::vector<double> noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
                                           std::optional<double> deviation = {});
+
+// The noise of a render of few rays through the lens, predicted from the centre view: mean square, tone-mapped, over
+// the pixels and over R, G and B; 0 without any of them. `z`: planar depth per pixel, in (0, inf]. `across`: pixels of
+// the view, across and down, per pixel of the picture. `rays` > 0.
+//
+// A ray through the lens meets one of the points that blur into a pixel, at random. The variance of their colours,
+// divided by the number of rays, is the square of the noise. The points of a pixel are those of the centre view whose
+// CoC covers it, drawn here as squares of the same area; what hides what is left out. A renderer that spreads its rays
+// evenly has less noise. With the noise of the light, ldi-plan predicts for 20 rays 29.0, 35.6, 35.8 dB on fence, grass
+// and mirror, which have 30.4, 33.9, 35.9; for 320 rays 45.3, 47.7, 47.9, which have 45.9, 49.7, 51.5.
+double noise_of_rays(const Image &image, std::span<const float> z, const ThinLens &lens, int across,
+                     int rays);
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
 // The predicted noise of rays through the lens: closed forms, and its limits.
 #include "base/tone_map.h"
-#include "plan/noise_of_rays.h"
+#include "plan/noise.h"
 
 #include <gtest/gtest.h>
 

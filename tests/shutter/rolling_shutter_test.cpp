@@ -1,5 +1,5 @@
 // The rows of a rolling shutter, whose weights are integrals in closed form.
-#include "shutter/rolling_shutter.h"
+#include "shutter/shutter_curve.h"
 
 #include <gtest/gtest.h>
 

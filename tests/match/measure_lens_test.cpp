@@ -1,4 +1,4 @@
-#include "match/equations.h"
+#include "match/measure_lens.h"
 
 #include <gtest/gtest.h>
 
