@@ -55,7 +55,7 @@ public:
     }
 
     bool some_are_deep() const { return some_are_deep_; }
-    // Whether the sample, of a flat view among deep ones, shows no other surface (mixed_pixels.h).
+    // Whether the sample, of a flat view among deep ones, shows no other surface.
     bool is_pure(const ViewSample &s) const {
         return s.source < mixed_[s.view].size() && !mixed_[s.view][s.source];
     }

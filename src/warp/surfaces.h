@@ -33,7 +33,7 @@ struct Surfaces {
 // A deep centre view shows everything in its pixel, down to the depth where nothing shows through. Each of its samples
 // is a surface, which has the samples of rim views that are nearest to it in depth; other surfaces lie behind all of
 // them. A part of a deep view's pixel (view_samples.h) belongs to one surface. If the centre view sees that surface,
-// pixels of flat views that mix several surfaces (mixed_pixels.h) are not averaged with it.
+// pixels of flat views that mix several surfaces (reprojected_views.h) are not averaged with it.
 //
 // Beyond the frame of a deep centre view, only the nearest pixel of the frame tells whether pixels of flat views are
 // mixed: if it holds parts, they count as mixed. They are then left out, and the parts continue.

@@ -53,7 +53,7 @@ plan/noise.cpp block_size spread least_of_four
 warp/images/matched_view.h cutout
 warp/images/neighbours.h image_block reach
 warp/images/patch_comparison.cpp alike
-warp/images/patch_rows.h patch_reach patch_row
+warp/images/patch_comparison.h patch_reach patch_row
 warp/images/image_search.cpp band_rows
 warp/images/image_sweep.cpp rounding rows
 warp/images/image_depths.cpp band_rows

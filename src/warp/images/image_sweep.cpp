@@ -1,8 +1,8 @@
 #include "warp/images/image_sweep.h"
 
 #include "base/median.h"
-#include "warp/images/mean_curves.h"
 #include "warp/images/patch_comparison.h"
+#include "warp/images/robust_mean.h"
 #include "warp/tuning.h"
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 namespace sparselens {
 
 inline float value_in(const Ldi &ldi, std::size_t channel, std::uint64_t i) { return ldi.values[channel][i]; }
+
 inline float value_in(const ViewSamples &view, std::size_t channel, std::uint64_t i) {
     return view.value(channel, i);
 }
@@ -56,8 +57,22 @@ private:
     std::size_t alpha_;
 };
 
+inline bool is_before(const Imath::V2i &a, const Imath::V2i &b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+
 // Returns all pixels within `reach` of these, each once, row by row.
-std::vector<Imath::V2i> grown(std::span<const Imath::V2i> pixels, int reach);
-bool is_among(std::span<const Imath::V2i> pixels, const Imath::V2i &pixel); // `pixels`: from grown()
+inline std::vector<Imath::V2i> grown(std::span<const Imath::V2i> pixels, int reach) {
+    std::vector<Imath::V2i> result;
+    for (const Imath::V2i &p : pixels)
+        for (int y = -reach; y <= reach; ++y)
+            for (int x = -reach; x <= reach; ++x) result.push_back(p + Imath::V2i(x, y));
+    std::sort(result.begin(), result.end(), is_before);
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
+// `pixels`: from grown().
+inline bool is_among(std::span<const Imath::V2i> pixels, const Imath::V2i &pixel) {
+    return std::binary_search(pixels.begin(), pixels.end(), pixel, is_before);
+}
 
 } // namespace sparselens
