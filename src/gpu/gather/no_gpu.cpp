@@ -1,5 +1,6 @@
 // A build without the kernels for GPUs (SPARSELENS_GPU) has no devices.
 #include "gpu/gather/gather_device.h"
+#include "gpu/warp/warp_device.h"
 
 namespace sparselens::gpu {
 
@@ -9,6 +10,10 @@ std::vector<DeviceInfo> list_devices(std::string *why_none) {
 }
 
 std::unique_ptr<TileDevice> open_gather_device(const DeviceInfo &info, const Watch &) {
+    throw DeviceFailed(info.name + " cannot be used: this build has no kernels for GPUs");
+}
+
+std::unique_ptr<WarpDevice> open_warp_device(const DeviceInfo &info, const Watch &) {
     throw DeviceFailed(info.name + " cannot be used: this build has no kernels for GPUs");
 }
 

@@ -1,7 +1,6 @@
 #include "gpu/lens/stripe.h"
 
 #include "base/parallel.h"
-#include "gpu/lens/partial_lists.h"
 #include "gpu/lens/stripe_ranges.h"
 #include "gpu/lens/tile_rules.h"
 

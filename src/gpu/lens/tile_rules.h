@@ -1,14 +1,18 @@
 // The rules by which a tile is gathered on a device, and what these rules look up for each of its pixels: which lens
-// points it sees through past a cat-eye, and what a holdout lets through there.
+// points it sees through past a cat-eye, and what a holdout lets through there; and for its quarters, their samples of
+// partial coverage.
 #pragma once
 
 #include "dof/device/tile_device.h"
 #include "dof/lens/gather_scene.h"
+#include "dof/lens/sample_blocks.h"
 #include "kernels/lens_layout.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace sparselens::gpu {
 
@@ -26,5 +30,11 @@ void place_columns(std::span<std::uint32_t> to, const GatherScene &scene, const 
 // front, back and the share that it lets through (bits of float). Empty without a holdout.
 std::size_t holdout_words(const GatherScene &scene, const TileTask &task);
 void place_holdout(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task);
+
+// Lists of the samples of partial coverage that a tile's lens points can bring into each of its quarters: front to
+// back, and in ascending order where depths are equal.
+using PartialLists = std::array<std::vector<std::uint32_t>, lens_kernel::quarters>;
+
+PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task);
 
 } // namespace sparselens::gpu
