@@ -1,8 +1,7 @@
 #include "io/depth_range.h"
 
 #include "base/error.h"
-#include "deep/checks/depth_check.h"
-#include "deep/checks/white_near_check.h"
+#include "deep/checks/picture_checks.h"
 #include "io/exr/header_values.h"
 
 #include <fmt/format.h>

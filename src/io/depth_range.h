@@ -18,7 +18,7 @@ namespace sparselens {
 DepthRange depth_range(const DepthOptions &options, const Imf::Header &header);
 
 // A warning if depths that are read unchanged look like normalised ones: none is above 1, and the farthest are exactly
-// 1. For a flat picture of that grid it also warns if they bend like depths that are white near (white_near_check.h).
+// 1. For a flat picture of that grid it also warns if they bend like depths that are white near (picture_checks.h).
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths);
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
                                               const Grid &grid);

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "deep/channel_alpha.h"
-#include "deep/checks/premultiplied_check.h"
+#include "deep/checks/picture_checks.h"
 #include "deep/edge_depths.h"
 #include "deep/tidy.h"
 #include "io/depth_range.h"

@@ -1,7 +1,7 @@
 #include "io/open_view.h"
 
 #include "base/parallel.h"
-#include "deep/checks/premultiplied_check.h"
+#include "deep/checks/picture_checks.h"
 #include "deep/edge_depths.h"
 #include "io/depth_range.h"
 #include "io/exr/depth_channel.h"

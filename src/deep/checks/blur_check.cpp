@@ -1,6 +1,5 @@
-#include "deep/checks/blur_check.h"
-
 #include "base/median.h"
+#include "deep/checks/picture_checks.h"
 #include "deep/checks/picture_lines.h"
 #include "view/flat_pixels.h"
 

@@ -1,5 +1,4 @@
-#include "deep/checks/encoding_check.h"
-
+#include "deep/checks/picture_checks.h"
 #include "deep/checks/picture_lines.h"
 #include "view/flat_pixels.h"
 

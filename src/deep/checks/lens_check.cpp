@@ -1,4 +1,4 @@
-#include "deep/checks/lens_check.h"
+#include "deep/checks/picture_checks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,7 @@
 #include "deep/checks/view_warnings.h"
 
 #include "base/parallel.h"
-#include "deep/checks/blur_check.h"
-#include "deep/checks/depth_check.h"
-#include "deep/checks/encoding_check.h"
-#include "deep/checks/lens_check.h"
+#include "deep/checks/picture_checks.h"
 #include "deep/checks/pose_check.h"
 #include "view/resolve_lens.h"
 

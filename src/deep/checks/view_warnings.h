@@ -19,7 +19,7 @@ struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // how they were read
     bool depth_filtered = false;               // in the first view; see edge_depths.h
     Camera camera = {};                        // of the first view
-    bool unpremultiplied = false;              // in the first view; see premultiplied_check.h
+    bool unpremultiplied = false;              // in the first view; see picture_checks.h
 };
 
 // Checks the first view, which is the centre or the only one: its colours, its depths, and the blur that the lens gives

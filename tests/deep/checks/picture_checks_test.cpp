@@ -1,8 +1,5 @@
 // Mistakes that pictures show, tested on pictures given by formulas.
-#include "deep/checks/blur_check.h"
-#include "deep/checks/depth_check.h"
-#include "deep/checks/encoding_check.h"
-#include "deep/checks/lens_check.h"
+#include "deep/checks/picture_checks.h"
 #include "deep/checks/view_warnings.h"
 #include "support/views.h"
 #include "view/depth.h"

@@ -1,4 +1,4 @@
-#include "deep/checks/premultiplied_check.h"
+#include "deep/checks/picture_checks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "deep/checks/white_near_check.h"
+#include "deep/checks/picture_checks.h"
 
 #include <gtest/gtest.h>
 
