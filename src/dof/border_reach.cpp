@@ -1,7 +1,7 @@
 #include "dof/border_reach.h"
 
 #include "deep/build.h"
-#include "dof/lens/beyond/border_pixels.h"
+#include "dof/lens/beyond/border.h"
 #include "dof/tuning.h"
 #include "lens/lamp.h"
 #include "lens/light_reach.h"

@@ -34,7 +34,7 @@ dof/lens/shadow_search.h beside
 dof/lens/filler_samples.cpp pixels_at_once
 dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
-dof/lens/lens_sets.h final_points largest_coc normal_points
+dof/lens/tile_plan.h final_points largest_coc normal_points
 dof/lens/lens_tiles.h lens_tile_size
 dof/lens/lights.h sides
 dof/lens/sample_blocks.h background size
@@ -45,7 +45,7 @@ dof/merge_layers.cpp pixels_at_once
 dof/merge_layers.h layer_tolerance_px
 dof/selective/blend.h sums_before_colours
 dof/selective/selective.cpp at_once
-dof/selective/splat_blocks.cpp square_size
+dof/selective/splats.cpp square_size
 dof/selective/splats.h too_little
 plan/block_motion.cpp block_size
 plan/disocclusion.h nothing

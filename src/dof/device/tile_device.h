@@ -1,13 +1,13 @@
 // A device, such as a GPU (gpu/gather/gather_device.h), that gathers tiles of a picture in place of the CPU. The lens
 // gather prepares samples, fillers and lens points in the same way for both, and the selective gather prepares its
-// splats (splat_tiles.h). Each gather does itself the tiles that the device leaves.
+// splats. Each gather does itself the tiles that the device leaves.
 #pragma once
 
 #include "base/device_report.h"
-#include "dof/device/splat_tiles.h"
 #include "kernels/lens_layout.h"
 #include "lens/lens_samples.h"
 
+#include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
 #include <cstddef>
@@ -19,6 +19,7 @@
 namespace sparselens {
 
 struct GatherScene; // dof/lens/gather_scene.h
+struct SplatBlocks; // dof/selective/splats.h
 
 // One tile of lens_tile_size pixels, and what it is gathered from.
 struct TileTask {
@@ -46,6 +47,38 @@ struct TilePicture {
         for (std::size_t g = 0; g < groups; ++g)
             if (known[g * group_step / 4 + pixel] > 0) return true;
         return false;
+    }
+};
+
+// A block of splats that can reach a tile.
+struct VisitedBlock {
+    std::uint32_t block;
+    bool covers;   // each of its discs covers the whole tile
+    bool ends_bin; // the next block that the tile visits lies in another depth bin
+};
+
+// What the selective gather gathers tiles from.
+struct SplatScene {
+    const SplatBlocks &splats;
+    Imath::Box2i data; // window
+    double pixel_aspect;
+    std::size_t layers; // the largest number of layers of a pixel
+};
+
+struct SplatTask {
+    Imath::Box2i tile;                    // its pixels, in the data window
+    std::span<const VisitedBlock> blocks; // front to back
+};
+
+// The result of a tile. Its pixels are counted row by row, splat_kernel::size in a row.
+struct SplatPicture {
+    // Four colours per pixel; the next group of colours follows `group_step` values later.
+    const float *values;
+    const float *alphas; // one per pixel
+    std::size_t group_step;
+
+    float value(std::size_t pixel, std::size_t colour) const {
+        return values[colour / 4 * group_step + pixel * 4 + colour % 4];
     }
 };
 

@@ -1,9 +1,13 @@
 #include "dof/facets/links.h"
 
+#include "base/parallel.h"
+#include "base/subpixels.h"
 #include "dof/facets/facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace sparselens {
 
@@ -42,6 +46,78 @@ LinkedSample Links::linked(const LinkedSample &a, const Imath::V2i &pixel, const
     const float slope =
         std::max({std::min(on[0], on[1]), std::min(back[0], back[1]), std::min(on[0], back[0])});
     return std::abs(difference) - steep_px < 2 * slope ? b : LinkedSample{};
+}
+
+namespace {
+
+class Joining {
+public:
+    Joining(const Ldi &ldi, const Links &links, float apart)
+        : ldi_(ldi), corner_(ldi.windows.data.min), links_(links), apart_(apart), first_(ldi.samples()) {
+        std::iota(first_.begin(), first_.end(), 0u);
+    }
+
+    // `cell`: its pixels, EXR coordinates.
+    void join(const Imath::Box2i &cell) {
+        float least = INFINITY, most = -INFINITY;
+        for_each(cell, [&](const Imath::V2i &, const LinkedSample &s) {
+            least = std::min(least, s.depth);
+            most = std::max(most, s.depth);
+        });
+        if (!(most - least > apart_)) return;
+        for_each(cell, [&](const Imath::V2i &at, const LinkedSample &s) {
+            for (const Imath::V2i &step : {Imath::V2i(1, 0), Imath::V2i(0, 1)})
+                if (cell.intersects(at + step + corner_))
+                    if (const LinkedSample next = links_.linked(s, at, step); next.found())
+                        unite(s.sample, next.sample);
+        });
+        for_each(cell,
+                 [&](const Imath::V2i &, const LinkedSample &s) { first_[s.sample] = first_of(s.sample); });
+    }
+
+    std::vector<std::uint32_t> take() { return std::move(first_); }
+
+private:
+    // Calls visit(pixel, sample). The pixel is relative to the data window's corner.
+    template <typename Visit>
+    void for_each(const Imath::Box2i &cell, const Visit &visit) const {
+        for (int y = cell.min.y; y <= cell.max.y; ++y)
+            for (int x = cell.min.x; x <= cell.max.x; ++x) {
+                const Imath::V2i at = Imath::V2i(x, y) - corner_;
+                links_.for_each_opaque(at, [&](const LinkedSample &s) { visit(at, s); });
+            }
+    }
+    std::uint32_t first_of(std::uint32_t sample) const {
+        while (first_[sample] != sample) sample = first_[sample];
+        return sample;
+    }
+    bool shows_image(std::uint32_t sample) const {
+        return !ldi_.optical.empty() && ldi_.optical[sample] != ldi_.z[sample];
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        if (shows_image(a) || shows_image(b)) return;
+        const auto [least, most] = std::minmax({first_of(a), first_of(b)});
+        first_[most] = least;
+    }
+
+    const Ldi &ldi_;
+    Imath::V2i corner_;
+    const Links &links_;
+    float apart_;
+    std::vector<std::uint32_t> first_;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> joined_in_cells(const Ldi &ldi, const Links &links, int across, float apart) {
+    Joining joining(ldi, links, apart);
+    const Imath::Box2i cells = reduced(ldi.windows.data, across);
+    parallel_for(std::size_t(cells.max.y - cells.min.y + 1), [&](std::size_t row) {
+        const int y = (cells.min.y + int(row)) * across;
+        for (int x = cells.min.x * across; x <= cells.max.x * across; x += across)
+            joining.join({{x, y}, {x + across - 1, y + across - 1}});
+    });
+    return joining.take();
 }
 
 } // namespace sparselens

@@ -2,7 +2,7 @@
 
 #include "base/subpixels.h"
 #include "deep/proxy.h"
-#include "dof/facets/joined.h"
+#include "dof/facets/links.h"
 #include "dof/lens/cells.h"
 #include "dof/lens/sharpen.h"
 #include "dof/lens/solid_samples.h"

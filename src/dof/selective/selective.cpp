@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "dof/device/tile_device.h"
 #include "dof/selective/blend.h"
-#include "dof/selective/splat_blocks.h"
+#include "dof/selective/splats.h"
 #include "kernels/splat_layout.h"
 #include "lens/psf.h"
 

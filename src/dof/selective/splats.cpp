@@ -1,6 +1,11 @@
 #include "dof/selective/splats.h"
 
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace sparselens {
 
@@ -41,6 +46,106 @@ void set_pixel(Image &image, const SplatSource &source, int x, int y, double alp
                std::span<const double> colours) {
     for (std::size_t k = 0; k < colours.size(); ++k) image.at(source.colours()[k], x, y) = float(colours[k]);
     if (source.alpha() != npos) image.at(source.alpha(), x, y) = float(alpha);
+}
+
+namespace {
+
+constexpr int square_size = 16; // pixels
+
+// Calls visit(splat) for the splats of the pixels of a square.
+template <typename Visit>
+void for_each_splat(const SplatSource &source, const Imath::Box2i &square, const Visit &visit) {
+    for (int y = square.min.y; y <= square.max.y; ++y)
+        for (int x = square.min.x; x <= square.max.x; ++x)
+            source.for_each(source.ldi().windows.index(x, y), visit);
+}
+
+// The splats of a square front to back; equal bins stay in pixel order.
+std::vector<Splat> splats_of_square(const SplatSource &source, const Imath::Box2i &square) {
+    std::vector<Splat> splats;
+    for_each_splat(source, square, [&](const Splat &splat) { splats.push_back(splat); });
+    std::stable_sort(splats.begin(), splats.end(),
+                     [](const auto &a, const auto &b) { return a.bin < b.bin; });
+    return splats;
+}
+
+void put_values(SplatBlocks &grid, std::size_t at, const Splat &splat, const SplatSource &source) {
+    float *value = &grid.values[at * grid.size()];
+    *value++ = float(splat.coverage);
+    *value++ = float(splat.known);
+    for (const std::size_t channel : source.colours()) *value++ = float(source.colour(splat, channel));
+    *value = float(splat.known * std::abs(splat.coc));
+}
+
+void extend(SplatBlock &block, const Splat &splat, double pixel_aspect) {
+    const double radius = std::abs(splat.coc);
+    const Imath::V2d extent(radius, radius * pixel_aspect);
+    block.centres.extendBy(splat.position);
+    block.reach.extendBy(splat.position - extent);
+    block.reach.extendBy(splat.position + extent);
+    block.smallest = block.begin == block.end ? radius : std::min(block.smallest, radius);
+    ++block.end;
+}
+
+// Stores a square's splats from `first` on and returns its blocks.
+std::vector<SplatBlock> store_square(SplatBlocks &grid, std::size_t first, std::span<const Splat> splats,
+                                     const SplatSource &source) {
+    std::vector<SplatBlock> blocks;
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+        const Splat &splat = splats[i];
+        const std::size_t at = first + i;
+        if (blocks.empty() || blocks.back().bin != splat.bin)
+            blocks.push_back({splat.bin, at, at, {}, {}, 0});
+        extend(blocks.back(), splat, source.lens().pixel_aspect);
+        grid.x[at] = splat.position.x;
+        grid.y[at] = splat.position.y;
+        grid.radius[at] = std::abs(splat.coc);
+        put_values(grid, at, splat, source);
+    }
+    return blocks;
+}
+
+// The sums are double, because they may add up any number of splats.
+void sum_blocks(SplatBlocks &grid, double pixel_aspect) {
+    grid.sums.assign(grid.blocks.size() * grid.size(), 0);
+    parallel_for(grid.blocks.size(), [&](std::size_t index) {
+        const SplatBlock &block = grid.blocks[index];
+        if (block.smallest < 0.5) return; // cannot cover a tile, not even of one pixel
+        for (std::size_t i = block.begin; i < block.end; ++i) {
+            const double weight = 1 / (std::numbers::pi * grid.radius[i] * grid.radius[i] * pixel_aspect);
+            for (std::size_t k = 0; k < grid.size(); ++k)
+                grid.sums[index * grid.size() + k] += weight * grid.value(i)[k];
+        }
+    });
+}
+
+} // namespace
+
+SplatBlocks make_splat_blocks(const SplatSource &source) {
+    const Tiles squares(source.ldi().windows.data, square_size);
+    std::vector<std::size_t> first(squares.count() + 1, 0);
+    parallel_for(squares.count(), [&](std::size_t square) {
+        for_each_splat(source, squares.box(square), [&](const Splat &) { ++first[square + 1]; });
+    });
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+
+    SplatBlocks grid;
+    grid.colours = source.colours().size();
+    for (auto *array : {&grid.x, &grid.y, &grid.radius}) array->resize(first.back());
+    grid.values.resize(first.back() * grid.size());
+    std::vector<std::vector<SplatBlock>> blocks(squares.count());
+    parallel_for(squares.count(), [&](std::size_t square) {
+        blocks[square] =
+            store_square(grid, first[square], splats_of_square(source, squares.box(square)), source);
+    });
+    for (const auto &of_square : blocks)
+        grid.blocks.insert(grid.blocks.end(), of_square.begin(), of_square.end());
+    std::stable_sort(grid.blocks.begin(), grid.blocks.end(),
+                     [](const SplatBlock &a, const SplatBlock &b) { return a.bin < b.bin; });
+    for (std::size_t i = 0; i < grid.blocks.size(); ++i)
+        grid.bins += i == 0 || grid.blocks[i].bin != grid.blocks[i - 1].bin;
+    sum_blocks(grid, source.lens().pixel_aspect);
+    return grid;
 }
 
 } // namespace sparselens

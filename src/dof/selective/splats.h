@@ -7,6 +7,7 @@
 #include "kernels/layer_rules.h"
 #include "lens/thin_lens.h"
 
+#include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
 #include <algorithm>
@@ -92,5 +93,33 @@ void SplatSource::for_each(std::size_t pixel, const Visit &visit) const {
     }
     if (passed > too_little) visit(background(pixel, passed));
 }
+
+// Splats of one bin of depth in a square of pixels. The bounds of a block (its position and reach) let a tile accept or
+// reject it as a whole, so that a single huge circle of confusion costs only its own block.
+struct SplatBlock {
+    int bin = 0;
+    std::size_t begin = 0, end = 0; // splats
+    Imath::Box2d centres, reach;    // of the splats' centres; of all pixels that they can touch
+    double smallest = 0;            // the smallest radius of a CoC
+};
+
+// The splats of an LDI in the order in which a gather needs them: cut into blocks, sorted front to back.
+struct SplatBlocks {
+    // One entry per splat, block by block.
+    std::vector<double> x, y, radius;
+    std::vector<float> values;         // [splat][size()]: coverage, known, colours, known * radius
+    std::size_t colours = 0, bins = 0; // their numbers
+
+    std::vector<SplatBlock> blocks; // ascending bins, then squares of pixels
+    // [block][size()]: values / area of the PSF in pixels, where the block can cover a tile
+    std::vector<double> sums;
+
+    std::size_t size() const { return sums_before_colours + colours + 1; }
+    std::span<const float> value(std::size_t splat) const {
+        return std::span(values).subspan(splat * size(), size());
+    }
+};
+
+SplatBlocks make_splat_blocks(const SplatSource &source);
 
 } // namespace sparselens

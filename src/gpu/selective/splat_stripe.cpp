@@ -2,7 +2,7 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
-#include "dof/selective/splat_blocks.h"
+#include "dof/selective/splats.h"
 
 #include <algorithm>
 

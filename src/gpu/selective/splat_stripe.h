@@ -5,7 +5,7 @@
 // end.
 #pragma once
 
-#include "dof/device/splat_tiles.h"
+#include "dof/device/tile_device.h"
 #include "kernels/splat_layout.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "dof/facets/joined.h"
+#include "dof/facets/links.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 
 #include "base/grid.h"
 #include "dof/lens/beyond/border.h"
-#include "dof/lens/beyond/border_pixels.h"
 #include "dof/lens/beyond/picked.h"
 
 #include <algorithm>

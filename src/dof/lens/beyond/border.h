@@ -8,6 +8,8 @@
 #include "lens/light_reach.h"
 #include "lens/thin_lens.h"
 
+#include <Imath/ImathBox.h>
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -87,5 +89,18 @@ private:
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;
 };
+
+// Calls visit(x, y) once for each of the outermost pixels of a window.
+template <typename Visit>
+void for_each_border_pixel(const Imath::Box2i &box, const Visit &visit) {
+    for (int x = box.min.x; x <= box.max.x; ++x) {
+        visit(x, box.min.y);
+        if (box.max.y > box.min.y) visit(x, box.max.y);
+    }
+    for (int y = box.min.y + 1; y < box.max.y; ++y) {
+        visit(box.min.x, y);
+        if (box.max.x > box.min.x) visit(box.max.x, y);
+    }
+}
 
 } // namespace sparselens
