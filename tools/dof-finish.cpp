@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "chain/file_notices.h"
 #include "finish/finish_picture.h"
-#include "finish/lens_headers.h"
+#include "finish/lens_check.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_read.h"

@@ -9,13 +9,15 @@
 // Another radius, focus or shape of the lens cannot be distinguished from the usual errors of gathered pictures. Fitted
 // in the same way by pictures that are gathered with 5 % more radius, 3 % more focus distance or six blades, good
 // pictures of eleven scenes show up to .9, .75 and .9 of such a mistake, and more with lamps. So the headers are
-// compared instead (lens_headers.h).
+// compared instead.
 #pragma once
 
 #include "finish/finish.h"
+#include "view/camera.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -27,5 +29,10 @@ struct LensMistakes {
 };
 
 LensMistakes check_lens(const LayerToFinish &layer);
+
+// Compares the lenses of a gathered picture and a render by their headers. The differences, in words: the aperture's
+// radius, its blades, their rotation, its squeeze, and the focus distance. Values that a header lacks are not compared.
+// Blades are compared if both headers name them, 0 for none.
+std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render);
 
 } // namespace sparselens

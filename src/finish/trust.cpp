@@ -3,7 +3,6 @@
 #include "base/for_processors.h"
 #include "base/parallel.h"
 #include "finish/classes.h"
-#include "finish/shares.h"
 #include "finish/window_means.h"
 
 #include <cmath>

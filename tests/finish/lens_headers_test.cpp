@@ -1,6 +1,6 @@
 // Different lenses in the headers of two pictures: each difference is named with both values; equal and unknown values
 // are not mentioned.
-#include "finish/lens_headers.h"
+#include "finish/lens_check.h"
 
 #include <gtest/gtest.h>
 

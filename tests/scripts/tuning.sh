@@ -71,7 +71,7 @@ finish/classes.cpp bins
 finish/error_estimate.cpp fastest slowest
 finish/finish_picture.cpp largest
 finish/regression.cpp least_square
-finish/shares.cpp side
+finish/classes.cpp side
 finish/similar_pixels.cpp columns most_channels rows
 finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy
 finish/window_means.cpp lanes
