@@ -2,14 +2,25 @@
 // coverage of an opaque picture; halves if these hold every value, as colours of most files; otherwise floats.
 #pragma once
 
-#include "base/half_bits.h"
+#include <half.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace sparselens {
+
+// Halves (16 bits) of floats, bit by bit.
+inline std::uint16_t bits_of_half(float value) { return Imath::half(value).bits(); } // rounded
+
+inline float of_half(std::uint16_t bits) { return float(Imath::half(Imath::half::FromBits, bits)); }
+
+// Whether a half holds every bit of the value.
+inline bool is_half(float value) {
+    return std::bit_cast<std::uint32_t>(of_half(bits_of_half(value))) == std::bit_cast<std::uint32_t>(value);
+}
 
 class Plane {
 public:

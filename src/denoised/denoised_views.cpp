@@ -1,6 +1,6 @@
 #include "denoised/denoised_views.h"
 
-#include "base/colour_layers.h"
+#include "base/channel_names.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "denoised/kept_details.h"

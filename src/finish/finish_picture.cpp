@@ -1,6 +1,6 @@
 #include "finish/finish_picture.h"
 
-#include "base/colour_layers.h"
+#include "base/channel_names.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "finish/frames_around.h"

@@ -1,4 +1,3 @@
-#include "base/half_bits.h"
 #include "base/plane.h"
 
 #include <gtest/gtest.h>
