@@ -1,9 +1,10 @@
 // Any bytes as a layer of USD: read, its cameras found and placed, and written as views, which are read again.
+#include "io/usd/usd_layer.h"
+
 #include "chain/usd_shot.h"
 #include "fuzz/fuzz.h"
 #include "io/files/memory_file.h"
 #include "io/usd/usd_camera.h"
-#include "io/usd/usd_read.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "io/files/file_stream.h"
-#include "io/usd/usd_read.h"
+#include "io/usd/usd_layer.h"
 #include "io/usd/usd_transform.h"
 
 #include <fmt/format.h>

@@ -58,4 +58,10 @@ const UsdAttribute *find_attribute(const UsdPrim &prim, std::string_view name);
 // The only text of an attribute that is not animated, such as a token; empty if it has none.
 std::string text_value(const UsdPrim &prim, std::string_view name);
 
+// Reads a textual layer (.usda), by the grammar of OpenUSD's "Usda File Format" (usd_read.cpp). Throws Error, naming
+// the file and the line, if the file cannot be read, is not textual USD, is nested deeper than 64 levels, or has more
+// than 10,000 cameras and settings or a million time samples. Binary files (.usdc, .usdz) are refused with the command
+// that converts them. `-` is standard input.
+UsdLayer read_usd(const std::string &path);
+
 } // namespace sparselens

@@ -1,9 +1,8 @@
-#include "io/usd/usd_read.h"
-
 #include "base/error.h"
 #include "base/text.h"
 #include "io/files/file_stream.h"
 #include "io/files/text_file.h"
+#include "io/usd/usd_layer.h"
 #include "io/usd/usd_tokens.h"
 
 #include <fmt/format.h>

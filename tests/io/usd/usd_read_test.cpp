@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "io/usd/usd_camera.h"
-#include "io/usd/usd_read.h"
+#include "io/usd/usd_layer.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
