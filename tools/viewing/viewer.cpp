@@ -4,7 +4,7 @@
 #include "base/subpixels.h"
 #include "chain/match_lens.h"
 #include "io/moment_files.h"
-#include "options/match_json.h"
+#include "options/match_options.h"
 #include "viewing/shot_frame.h"
 
 #include <fmt/format.h>

@@ -1,21 +1,92 @@
 // Answers the requests of dof-view's pages. Independent of HTTP.
 #pragma once
 
+#include "base/image.h"
 #include "harness/commands/frames.h"
+#include "io/display/shown_picture.h"
+#include "io/exr/exr_flat.h"
 #include "viewing/asked.h"
-#include "viewing/kept_file.h"
-#include "viewing/pieces.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
 #include "viewing/view_facts.h"
 #include "viewing/view_words.h"
 
+#include <Imath/ImathVec.h>
+
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
+
+// A flat picture that pages show besides that of the lens: the last one is kept. Its users take turns, so that it is in
+// memory once, however many pages ask.
+class KeptFile {
+public:
+    // Returns use(picture). Throws Error if the file cannot be read.
+    template <typename Use>
+    auto with(const std::string &path, const Use &use) {
+        const std::lock_guard lock(mutex_);
+        if (path_ != path) {
+            path_.clear();
+            image_ = read_flat_exr(path).image;
+            path_ = path;
+        }
+        return use(std::as_const(image_));
+    }
+
+private:
+    std::mutex mutex_;
+    std::string path_; // empty: none
+    Image image_;
+};
+
+// Finished tiles of the picture in progress: 8-bit pixels, sent to its page once.
+struct Piece {
+    Imath::V2i first; // top left pixel, EXR coordinates
+    ShownPixels pixels;
+};
+
+// Pieces of one picture at a time. Any number of threads may add and take them.
+class Pieces {
+public:
+    // During its lifetime a picture of the page is in progress, at first without pieces.
+    class AtWork {
+    public:
+        AtWork(Pieces &pieces, const std::string &page) : pieces_(pieces) { pieces_.begin(page); }
+        ~AtWork() { pieces_.begin(""); }
+        AtWork(const AtWork &) = delete;
+        AtWork &operator=(const AtWork &) = delete;
+
+    private:
+        Pieces &pieces_;
+    };
+
+    void add(Piece piece) {
+        const std::lock_guard lock(mutex_);
+        pieces_.push_back(std::move(piece));
+    }
+    // Takes the new pieces, in order; none if another page's picture is in progress.
+    std::vector<Piece> take(const std::string &page) {
+        const std::lock_guard lock(mutex_);
+        if (page != page_) return {};
+        return std::exchange(pieces_, {});
+    }
+
+private:
+    void begin(const std::string &page) {
+        const std::lock_guard lock(mutex_);
+        page_ = page;
+        pieces_ = {};
+    }
+
+    std::mutex mutex_;
+    std::string page_;
+    std::vector<Piece> pieces_;
+};
 
 struct ViewOptions {
     GatherCommand picture;
