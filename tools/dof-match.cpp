@@ -9,7 +9,6 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/text_file.h"
 #include "measure/text_table.h"
-#include "options/match_json.h"
 #include "options/match_options.h"
 
 #include <CLI/CLI.hpp>

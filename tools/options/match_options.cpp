@@ -10,6 +10,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -88,6 +89,32 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
                         "dof-match shot.ldi.exr plate.####.exr --region 200,100,600,340 -o keys.json"},
                        {"Find the focus alone, with the f-stop of the camera report",
                         "dof-match shot.ldi.exr plate.exr --fstop 2.8 --fit focus"}});
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json as_json(const MatchedValue &v) {
+    return {{"value", finite_json(v.value)}, {"interval", {finite_json(v.low), finite_json(v.high)}}};
+}
+
+} // namespace
+
+Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
+
+Json as_json(const MatchedShape &shape) {
+    return {{"blades", shape.blades}, {"blade_rotation", shape.rotation}, {"squeeze", shape.squeeze}};
+}
+
+Json as_json(const MatchedLens &lens) {
+    Json line{{"focus_distance", as_json(lens.focus_distance)}, {"lens_radius", as_json(lens.lens_radius)}};
+    if (lens.fstop) line["fstop"] = as_json(*lens.fstop);
+    line["softness"] = lens.softness;
+    line["matched_share"] = lens.matched_share;
+    line["largest_coc"] = lens.largest_coc;
+    if (!lens.doubt.empty()) line["doubt"] = lens.doubt;
+    return line;
 }
 
 } // namespace sparselens

@@ -1,9 +1,11 @@
-// The command line of dof-match.
+// The command line of dof-match, and its answers as JSON.
 #pragma once
 
 #include "chain/ldi_cache.h"
 #include "chain/match_lens.h"
 #include "harness/commands/cli.h"
+
+#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -17,5 +19,12 @@ struct MatchCommand : LdiRequest { // with the options that say how to read the 
 
 // `options` must not move until the command line is parsed.
 void add_match_options(CLI::App &app, MatchCommand &options);
+
+// A matched lens as JSON, with infinity as "inf": for programs that run dof-match, and for the page of dof-view.
+nlohmann::ordered_json as_json(const MatchedLens &lens);
+nlohmann::ordered_json as_json(const MatchedShape &shape);
+
+// A number that JSON can hold, else "inf".
+nlohmann::ordered_json finite_json(double value);
 
 } // namespace sparselens
