@@ -95,7 +95,6 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
 BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                                     const BlockedSamples &samples,
                                     std::span<const std::uint32_t> highlights) {
-    if (fillers.empty()) return {};
     std::vector<char> hides(fillers.size());
     parallel_ranges(fillers.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f)
@@ -106,6 +105,7 @@ BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::s
                                       highlights, place_of(samples, ldi, part.pixel, part.sample));
                        });
     });
+    if (std::ranges::find(hides, true) == hides.end()) return {};
     const FillersByPixel by_pixel(fillers, ldi.windows);
     const auto hiding_at = [&](int x, int y) {
         const Filler *f = by_pixel.at(x, y);
