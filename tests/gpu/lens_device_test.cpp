@@ -92,6 +92,9 @@ TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
 
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
     expect_same(random_surfaces(windows_of_size(90, 70), lens, false, 6), {.lens_samples = 12});
+    // Of one view, fillers hide highlights, and the device sees none of them as solids.
+    expect_same(random_surfaces(windows_of_size(90, 70), lens, true, 6),
+                {.lens_samples = 12, .one_view = true});
 }
 
 TEST_F(LensDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {

@@ -22,13 +22,15 @@ Ldi lamp_beside_board(int wall, float light = 900) {
     });
 }
 
+Image picture(const Ldi &ldi, bool one_view) {
+    Progress silent;
+    return lens_gather(ldi, lens, ldi.windows.data, {.lens_samples = 512, .one_view = one_view}, silent);
+}
+
 // The lamp's light in its own row, from one column to another.
 double light_in(int from, int to, int wall, bool one_view) {
-    Progress silent;
     const auto row = [&](float light) {
-        const Ldi ldi = lamp_beside_board(wall, light);
-        const LensGatherOptions options{.lens_samples = 512, .one_view = one_view};
-        const Image image = lens_gather(ldi, lens, ldi.windows.data, options, silent);
+        const Image image = picture(lamp_beside_board(wall, light), one_view);
         double sum = 0;
         for (int x = from; x <= to; ++x) sum += double(image.at(0, x, 32));
         return sum;
@@ -43,6 +45,11 @@ TEST(HidingFillers, LetNoLampShineWhereNothingWasSeen) {
     EXPECT_GT(behind, beside / 10);
     EXPECT_NEAR(light_in(7, 32, 8, true), beside, beside * 1e-4);
     EXPECT_NEAR(light_in(43, 47, 8, true), 0, behind * 1e-3);
+}
+
+TEST(HidingFillers, HideNothingElse) {
+    const Ldi dark = lamp_beside_board(8, 1);
+    EXPECT_EQ(picture(dark, true).values, picture(dark, false).values);
 }
 
 TEST(HidingFillers, AreNotThoseOfStrands) {
