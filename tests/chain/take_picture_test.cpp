@@ -71,7 +71,8 @@ TEST(TakePicture, HasTheCameraThatItWasTakenWith) {
     EXPECT_EQ(picture.image.at(1, 3, 4), 0.25f);
 }
 
-// A lamp shines past a board and the wall behind it, if the wall ends there. A flat picture does not say so.
+// A board hides a part of a wall. In a deep picture the wall ends there, and a lamp shines past its end. In a flat
+// picture the wall may continue, so the lamp does not shine there.
 TEST(TakePicture, OfAFlatPictureLetsNoLampShineWhereNothingWasSeen) {
     OpenedLdi in = opened(make_ldi(windows_of_size(40, 30), rgba_channels(), [&](int x, int y) {
         const float light = x == 5 && y == 15 ? 900.0f : 0.5f;

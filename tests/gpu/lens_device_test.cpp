@@ -92,7 +92,7 @@ TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
 
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
     expect_same(random_surfaces(windows_of_size(90, 70), lens, false, 6), {.lens_samples = 12});
-    // Of one view, fillers hide highlights, and the device sees none of them as solids.
+    // In a picture of one view, some fillers cast shadows on highlights. The device must not draw these fillers.
     expect_same(random_surfaces(windows_of_size(90, 70), lens, true, 6),
                 {.lens_samples = 12, .one_view = true});
 }

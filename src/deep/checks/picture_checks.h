@@ -1,4 +1,5 @@
-// What shows that a picture is not what it is read as: in its colours, its depths or its blur. Each check has its .cpp.
+// Checks that find pictures that are read wrongly, views that were rendered through a lens, and mixed-up units. Each
+// check has a .cpp file of its own.
 #pragma once
 
 #include "base/grid.h"

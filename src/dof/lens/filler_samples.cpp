@@ -4,7 +4,6 @@
 #include "kernels/surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sparselens {
 
@@ -47,7 +46,7 @@ bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint6
     const auto depth = [&](std::uint64_t i) { return perceptive_depth(lens, double(ldi.z[i])); };
     const auto shows_it = [&](std::size_t p) {
         for (const std::uint64_t i : ldi.pixel(p))
-            if (std::abs(depth(i) - depth(sample)) <= double(one_surface_px)) return true;
+            if (kernels::is_one_surface<double>(depth(i), depth(sample), one_surface_px)) return true;
         return false;
     };
     const Imath::V2i at = ldi.windows.pixel(pixel);

@@ -19,11 +19,12 @@ struct FillerSamples {
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                             const BlockedSamples &samples, const SampleColours &colours);
 
-// Returns the fillers that hide lamps in a picture of one view (highlight_shadows.h). A lens point that looks past the
-// end of a surface, behind what is nearer, would see a far lamp there. No view says that the surface has an end, so no
-// lamp shines there. A filler hides lamps if its ground, where it ends, is one surface with most of the three by three
-// pixels around: a thinner one may be hair, which covers less than its pixels show. The ground must not be a highlight
-// itself. `samples`, `highlights`: as in Highlights::sample. The result's `source` is the front sample of the pixel.
+// Returns the fillers that hide lamps in a picture of one view (highlight_shadows.h). Such a picture shows a surface as
+// far as something nearer hides the rest. A lens point that looks behind the nearer thing would see lamps beside the
+// surface, but the surface may continue there. So its filler hides lamps. This holds if the ground, in the last pixel
+// that shows it, is one surface with most of the three by three pixels around: hair is thinner, and covers less than its
+// pixels show. It does not hold if the ground is a highlight. `samples` and `highlights` are as in Highlights::sample.
+// The result's `source` is the front sample of the pixel.
 BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                                     const BlockedSamples &samples, std::span<const std::uint32_t> highlights);
 
