@@ -67,16 +67,17 @@ bool shows(const DenoisedLayer &view, const Between &at, double inverse_z, doubl
     return scale * std::abs(upper + double(at.y) * (lower - upper) - inverse_z) < double(one_surface_px);
 }
 
-// The pixels of a square around (x, y), from the corner of the view, that show the same surface as its middle.
-void same_surface_beside(const DenoisedLayer &view, int x, int y, double scale,
+// The pixels of a square around `own` that show the surface that `own` shows, itself included.
+void same_surface_beside(const DenoisedLayer &view, std::size_t own, double scale,
                          std::vector<std::size_t> &found) {
     const Grid &grid = view.grid;
-    const std::size_t own = grid.index(x, y);
+    const Imath::V2i at = grid.pixel(own);
     const double inverse_z = 1 / double(view.z[own]);
+    const Imath::Box2i box = grid.box();
     constexpr int radius = Tuning::detail_radius;
     found.clear();
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, grid.height() - 1); ++v)
-        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, grid.width() - 1); ++u) {
+    for (int v = std::max(at.y - radius, box.min.y); v <= std::min(at.y + radius, box.max.y); ++v)
+        for (int u = std::max(at.x - radius, box.min.x); u <= std::min(at.x + radius, box.max.x); ++u) {
             const std::size_t i = grid.index(u, v);
             const double apart = scale * std::abs(1 / double(view.z[i]) - inverse_z);
             if (i == own || (view.z[i] > 0 && apart < double(one_surface_px))) found.push_back(i);
@@ -196,9 +197,9 @@ AveragedLayer averaged(const DenoisedLayer &view, double scale) {
     const Grid &grid = view.grid;
     parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
         std::vector<std::size_t> beside;
-        for (int x = 0; x < grid.width(); ++x) {
-            const std::size_t i = grid.index(x, int(row));
-            same_surface_beside(view, x, int(row), scale, beside);
+        const std::size_t first = row * std::size_t(grid.width());
+        for (std::size_t i = first; i < first + std::size_t(grid.width()); ++i) {
+            same_surface_beside(view, i, scale, beside);
             const float share = 1 / float(beside.size());
             for (const auto &[from, to] :
                  {std::pair(&view.noisy, &means.noisy), std::pair(&view.denoised, &means.denoised)})

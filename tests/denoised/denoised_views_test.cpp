@@ -71,6 +71,26 @@ TEST(DenoisedViews, LoseTheirNoise) {
     }
 }
 
+// Cameras with overscan have windows that begin below 0, cropped renders above. Only rounding differs.
+TEST(DenoisedViews, AreTheSameWhereverTheirWindowsBegin) {
+    const auto noisy = five_views(scene(0.2f), windows, radius),
+               clean = five_views(scene(0), windows, radius);
+    const std::vector<View> expected = taken(noisy, denoised_of(clean));
+    for (const Imath::V2i &step : {Imath::V2i(-9, -7), Imath::V2i(300, 200)}) {
+        const auto moved = [&](std::vector<View> views) {
+            for (View &view : views)
+                for (Imath::Box2i *box : {&view.image.windows.display, &view.image.windows.data})
+                    *box = {box->min + step, box->max + step};
+            return views;
+        };
+        const std::vector<View> made = taken(moved(noisy), denoised_of(moved(clean)));
+        for (std::size_t v = 0; v < made.size(); ++v)
+            EXPECT_LT(squared_distance(made[v].image.values, expected[v].image.values),
+                      1e-8 * squared_distance(noisy[v].image.values, expected[v].image.values))
+                << v << ' ' << step;
+    }
+}
+
 TEST(DenoisedViews, KeepWhatTheDenoiserDidNotSee) {
     const auto noisy = with_layers(five_views(scene(0.2f), windows, radius));
     const auto clean = with_layers(five_views(scene(0), windows, radius));

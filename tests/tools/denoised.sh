@@ -52,6 +52,17 @@ exits 0 "$bin/ldi-warp" "${views[@]/#/both.}" --noisy 'Noisy Image' -o one.ldi.e
 picture same two.ldi.exr one.ldi.exr R,G,B,A,Z 5e-4 || fail "a file of both gives another LDI than two files" # oiiotool made floats
 fails_saying 1 'both.center.exr: has no channel Noise.R: render' "$bin/ldi-warp" both.center.exr both.view_0.exr --noisy Noise -o no.exr
 
+# Windows that do not begin at 0,0: the light of a crop is that of the whole view, away from its edges.
+oiiotool center.denoised.exr --crop 60x30+20+12 -o cropped.denoised.exr
+oiiotool center.exr --crop 60x30+20+12 -o cropped.exr
+exits 0 "$bin/ldi-warp" center.exr --denoised center.denoised.exr -o whole.ldi.exr
+exits 0 "$bin/ldi-warp" cropped.exr --denoised cropped.denoised.exr -o cropped.ldi.exr
+for ldi in whole cropped; do
+    exits 0 "$bin/dof-gather" $ldi.ldi.exr --lens-radius 0 -o $ldi.flat.exr
+    picture edit $ldi.flat.exr $ldi.middle.exr crop=20x6+40+24
+done
+picture same whole.middle.exr cropped.middle.exr R,G,B 5e-4 || fail "a denoised crop is another picture"
+
 oiiotool center.exr --ch R,G,B --resize 48x27 -o small.exr
 oiiotool center.exr --ch A,Z -o colourless.exr
 fails_saying 2 '--denoised: there are 2 of them for 5 views' "$bin/ldi-warp" "${views[@]}" --denoised "${denoised[@]:0:2}" -o no.exr
