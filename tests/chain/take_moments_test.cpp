@@ -303,6 +303,21 @@ TEST(TakeMoments, HaveTheDepthTheFocusAndTheIdsOfTheMiddleMoment) {
     EXPECT_EQ(std::ranges::count(told, NoticeKind::focused, &Notice::kind), 1);
 }
 
+// Only the middle moment shows something at the pixel to focus on.
+TEST(TakeMoments, FollowLampsWithTheFocusOfTheMiddleMoment) {
+    std::vector<OpenedLdi> moments;
+    for (int m = 0; m < 2; ++m)
+        moments.push_back(opened(make_ldi(windows_of_size(40, 20), rgba_channels(), [=](int x, int y) {
+            std::vector<Sample> samples;
+            if (x == 10 + 8 * m && y == 10) samples.push_back({depth_of(lens, -3), {lamp_light, 0, 0, 1}});
+            if (x > 0 || m == 1) samples.push_back({lens.focus, {0.01f, 0.01f, 0.01f, 1}});
+            return samples;
+        })));
+    PictureRequest request;
+    request.focus_pixel = Imath::V2i(0, 0);
+    EXPECT_EQ(taken(moments, request).image.values, taken(moments).image.values);
+}
+
 TEST(TakeMoments, OfDifferentSizesAreTheirUnion) {
     std::vector<OpenedLdi> moments;
     for (const int x : {0, 20}) {
@@ -333,6 +348,9 @@ TEST(TakeMoments, OfDifferentShotsAreRefused) {
     const std::string end = " than b.exr; the moments of a shutter are of one shot";
     EXPECT_EQ(refused(plane(24, "a.exr")), "a.exr: its size of 24x10 is another" + end);
     OpenedLdi other = plane(20, "a.exr");
+    other.ldi.windows.pixel_aspect = 2;
+    EXPECT_EQ(refused(other), "a.exr: its pixel aspect of 2 is another" + end);
+    other = plane(20, "a.exr");
     other.camera.focal_length_mm = 2 * lens.focal_px;
     EXPECT_EQ(refused(other), "a.exr: its focal length of 1280 pixels is another" + end);
     other = plane(20, "a.exr");

@@ -96,6 +96,21 @@ TEST(SharedPoints, AreSpreadOverThePixel) {
         }
 }
 
+// All look through the same place of the lens. In the pixel, whose borders meet, the third point lies nearer to the first
+// than to the second, so it goes to the moment of the second.
+TEST(SharedPoints, OfOnePlaceOfTheLensLieApartInThePixel) {
+    for (const auto at : {&LensSample::pixel_x, &LensSample::pixel_y}) {
+        std::vector<LensSample> points(4);
+        points[0].*at = -0.45f;
+        points[1].*at = 0.1f;
+        points[2].*at = 0.45f;
+        const std::vector<LensSample> share = shared_points(points, {1, 2});
+        ASSERT_EQ(share.size(), 2u);
+        EXPECT_EQ(share[0].*at, 0.1f);
+        EXPECT_EQ(share[1].*at, 0.45f);
+    }
+}
+
 TEST(SharedPoints, KeepTheirWeights) {
     const Aperture ring({.blades = 6, .spherical = 0.5});
     float sum = 0;

@@ -78,6 +78,8 @@ TEST(ShutterMean, IsEmptyWhereAMomentHasNoPixels) {
     EXPECT_EQ(image.at(2, 2, 0), hashed(1));
     EXPECT_EQ(image.at(4, 0, 0), hashed(2));
     EXPECT_FLOAT_EQ(image.at(5, 0, 0), 0.1875f);
+    EXPECT_EQ(image.at(4, 2, 0), hashed(1));
+    EXPECT_FLOAT_EQ(image.at(5, 2, 0), 0.375f);
 }
 
 // Each row has its own weights; rows beyond the display window have those of its first or last row.
