@@ -28,6 +28,14 @@ TEST(ErrorEstimate, LiesNearTheTrueError) {
         }
 }
 
+// Both renders are exact, so the difference of the pictures makes the error: half of its square in a picture of one
+// render, n m / (n + m)^2 of it in the picture of both.
+TEST(ErrorEstimate, TheNoiseThatIsLeftDependsOnTheSamples) {
+    const Colours zero(3, Values(grid.size(), 0.0f)), one(3, Values(grid.size(), 1.0f));
+    const ErrorEstimate error = estimate_error({one, {one, zero}, {}}, {one, one}, {64, 16}, grid);
+    EXPECT_NEAR(error.mean / error.of_one, 64.0 * 16 / (80 * 80) / 0.5, 1e-6);
+}
+
 // The estimate's map is large where the picture is wrong.
 TEST(ErrorEstimate, TheMapShowsWhere) {
     Colours wrong = truth;

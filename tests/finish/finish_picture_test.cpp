@@ -54,6 +54,12 @@ TEST(TwoHalves, ThreeRendersAreSharedOutEvenly) {
     }
 }
 
+TEST(TwoHalves, EqualRendersTakeTurns) {
+    TwoHalves halves(picture_of(truth));
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) halves.add(render(seed));
+    EXPECT_EQ(halves.samples(), (std::array<double, 2>{32, 32}));
+}
+
 TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     TwoHalves halves(picture_of(truth));
     Render other = render(1);

@@ -81,6 +81,15 @@ TEST(FramesAround, AnotherErrorCountsLittle) {
     EXPECT_LT(mean_of(weight_of(frame, other, 1, grid)), 0.25);
 }
 
+// Where the squares of the noise and of the change, s^2 and b^2, are everywhere the same, so is s^2 / (s^2 + 2 n b^2).
+TEST(FramesAround, HaveTheWeightsOfLeastSquares) {
+    const auto even = [](float value) { return Colours(1, Values(grid.size(), value)); };
+    const FrameOfLayer frame{even(0), {even(0.1f), even(-0.1f)}}, other{even(0), {even(0.2f), even(0)}};
+    for (const std::size_t frames : {1u, 4u})
+        for (const float weight : weight_of(frame, other, frames, grid))
+            ASSERT_NEAR(weight, 0.02 / (0.02 + 2 * double(frames) * 0.01), 1e-4) << frames;
+}
+
 // A noisier frame counts less, and a frame without noise needs no other.
 TEST(FramesAround, CountByTheirNoise) {
     const Colours truth = synthetic_truth(grid);

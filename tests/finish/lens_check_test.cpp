@@ -68,6 +68,25 @@ TEST(LensCheck, LightThatTheGatheredPictureLacksIsNoExposure) {
     EXPECT_EQ(check_lens(layer_of(grid, bright, truth, {16, 16})).warnings(), std::vector<std::string>());
 }
 
+// Each lamp of the gathered picture lacks a pixel at its right.
+TEST(LensCheck, WhatLampsLackIsNoShift) {
+    LayerToFinish layer = layer_of(grid, truth, truth, {16, 16});
+    for (int y = 8; y < 90; y += 16)
+        for (int x = 8; x < 160; x += 16)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t lamp = grid.index(x, y);
+                for (Values *values : {&layer.gathered[c], &layer.rays[0][c], &layer.rays[1][c]})
+                    (*values)[lamp] = 100;
+                for (Colours &rays : layer.rays) rays[c][lamp + 1] = 40;
+            }
+    EXPECT_EQ(check_lens(layer).warnings(), std::vector<std::string>());
+}
+
+TEST(LensCheck, ExposuresThatDifferBetweenTheRendersAreNotNamed) {
+    EXPECT_EQ(check_lens({grid, truth, {times(truth, 1.1f), times(truth, 1.3f)}}).warnings(),
+              std::vector<std::string>());
+}
+
 TEST(LensCheck, BlackAndTinyPicturesAreFine) {
     const Colours black(3, Values(grid.size(), 0.0f));
     EXPECT_TRUE(check_lens({grid, black, {black, black}}).warnings().empty());

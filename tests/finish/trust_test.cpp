@@ -1,10 +1,12 @@
 // The trust in candidates: a correct one, a noisy one, and independence of the number of threads.
 #include "finish/synthetic.h"
 #include "finish/trust.h"
+#include "finish/tuning.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <numeric>
 
 namespace sparselens {
@@ -47,6 +49,54 @@ TEST(Trust, RaysDoNotConfirmThemselves) {
     const Colours truth = synthetic_truth(grid);
     const LayerToFinish layer = layer_of(grid, truth, truth, {4, 4});
     EXPECT_GT(mean(believed(layer, layer.rays).kept), 0.99);
+}
+
+// The last channel of a black picture after it was offered a candidate. All are the same in all pixels, and so small that
+// all cells are of one class: the picture is what fits both renders best.
+constexpr float unit = 1.1e-6f;
+using Colour = std::array<float, 3>;
+float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2> &rays,
+              const std::array<double, 2> &samples) {
+    const Grid even(64, 32);
+    Halves offered, halves;
+    for (std::size_t k = 0; k < 2; ++k)
+        for (const float value : candidate[k]) {
+            offered[k].emplace_back(even.size(), unit * value);
+            halves[k].emplace_back(even.size(), unit * rays[k]);
+        }
+    const Colours black(3, Values(even.size(), 0.0f));
+    Trio pictures{black, black, black};
+    Values kept(even.size(), 1.0f);
+    blend_in(pictures, offered, {halves, samples, even}, kept);
+    return pictures[2][2][even.index(32, 16)] / unit;
+}
+
+TEST(Trust, RendersTestByTheirSamples) {
+    const std::array<Colour, 2> white{{{1, 1, 1}, {1, 1, 1}}};
+    EXPECT_NEAR(blended(white, {0.85f, 0.95f}, {1, 1}), 0.9, 1e-3);
+    EXPECT_NEAR(blended(white, {0.85f, 0.95f}, {3, 1}), 0.875, 1e-3);
+    EXPECT_NEAR(blended(white, {0.85f, 0.95f}, {1, 3}), 0.925, 1e-3);
+}
+
+// Both changes are (1, 1, 1) and noise, half of the square of their difference: 4 d^2.
+TEST(Trust, NoiseCosts) {
+    for (const double d : {0.25, 0.5}) {
+        const auto more = float(1 + d), less = float(1 - d);
+        EXPECT_NEAR(blended({{{more, less, 1}, {less, more, 1}}}, {1, 1}, {1, 1}),
+                    3 / (3 + 2 * d * d + FinishTuning::noise_costs * 4 * d * d), 1e-3);
+    }
+}
+
+// Black pixels, for which the first render, of three times the samples, offers 1.
+TEST(CellEvidence, WeighsRendersByTheirSamples) {
+    const Grid few(8, 4);
+    const Values none(few.size(), 0.0f), one(few.size(), 1.0f);
+    const Halves halves{Colours{one}, Colours{none}};
+    const CellEvidence found =
+        evidence_of({Colours{none}, Colours{none}, Colours{none}}, halves, {halves, {3, 1}, few}, {few, 2});
+    EXPECT_FLOAT_EQ(found.energy[2][0], seen(0.75f) * 0.75f * 0.75f);
+    // n m / (n + m) of the squared difference, over the light.
+    EXPECT_DOUBLE_EQ(found.event_height, 0.75 / 0.75);
 }
 
 TEST(Trust, ThreadsDoNotMatter) {
