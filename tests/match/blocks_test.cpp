@@ -38,6 +38,23 @@ TEST(FitBlocks, a_grade_hardly_counts) {
         EXPECT_LT(block.left, 2e-3 * block.before);
 }
 
+// The plate adds squares of 0.05. In the gathered picture, which is nearly grey, red has a hundredth of them by chance.
+TEST(FitBlocks, a_trace_of_colour_explains_nothing) {
+    const auto squares = [](double x, double y) { return std::fmod(x + y, 2) == 0 ? 1.0 : -1.0; };
+    const auto grey = [](double x, double y) { return 0.5 + 0.1 * std::sin(0.4 * x) * std::cos(0.3 * y); };
+    const Colours change =
+        test::colours(16, 16, [&](double x, double y, std::size_t) { return squares(x, y); });
+    const Colours shown = test::colours(16, 16, [&](double x, double y, std::size_t k) {
+        return grey(x, y) + (k == 0 ? 5e-4 : -2.5e-4) * squares(x, y);
+    });
+    const Grey plate = brightness(test::colours(
+        16, 16, [&](double x, double y, std::size_t) { return grey(x, y) + 0.05 * squares(x, y); }));
+    const BlockFit block =
+        fit_blocks(plate, test::all_usable(plate.grid), shown, std::vector{change}).front();
+    EXPECT_NEAR(block.left, 0.05 * 0.05, 1e-4);
+    EXPECT_NEAR(block.pull[0] / block.stiffness[0][0], 0.05, 1e-3);
+}
+
 TEST(FitBlocks, the_shift_of_the_plate_is_found) {
     const auto wave = [](double x, double y) {
         return 0.5 + 0.2 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y);

@@ -34,6 +34,13 @@ TEST(Clipping, raises_the_lamps_that_a_plate_clips_and_nothing_else) {
         }
 }
 
+// 19 is 0.95 times the largest value.
+TEST(Clipping, the_least_clipped_value_is_raised_too) {
+    std::vector<float> plane{20, 20, 20, 19, 18.99f};
+    raise_clipped(plane);
+    EXPECT_EQ(plane, (std::vector<float>{80, 80, 80, 76, 18.99f}));
+}
+
 TEST(Clipping, only_clipped_channels_are_raised) {
     Colours plate = lamps(1);
     plate.rgb[2] = test::colours(96, 64, [](double x, double, std::size_t) { return 0.005 * x; }).rgb[2];
