@@ -1,13 +1,18 @@
 #include "base/error.h"
+#include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
+#include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
+#include "viewing/gatherer.h"
 #include "viewing/pipe_request.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -140,6 +145,21 @@ TEST(HandedPictures, TheSamePictureHasTheSameFile) {
     EXPECT_EQ(pictures.path_of(layout, pixels), path);
     EXPECT_THROW(pictures.path_of(layout, pixels.substr(1)), UsageError);
     EXPECT_EQ(HandedPictures::in_words(path + ": no"), "the picture that was handed over: no");
+}
+
+TEST(Gatherer, AFileThatWasWrittenAgainIsReadAgain) {
+    const ScratchFolder folder;
+    ToolContext tool;
+    tool.progress = std::make_unique<Progress>();
+    Gatherer gatherer(tool);
+    PipeRequest request{Ask::picture};
+    request.source = {
+        folder.file("a.exr"),
+        {{"focal-length", "50"}, {"sensor-width", "36"}, {"fstop", "2"}, {"focus-distance", "3"}}};
+    for (const std::size_t width : {8u, 16u, 16u}) {
+        write_ldi(request.source.file, ldi_of(std::vector<TestPixel>(width, {{3}})), Imf::Header());
+        EXPECT_EQ(gatherer.answer(request).pixels.size(), width * 4 * sizeof(std::uint16_t));
+    }
 }
 
 } // namespace
