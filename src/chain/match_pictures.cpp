@@ -24,10 +24,10 @@ namespace {
 constexpr float opaque = 0.99f;
 
 // The colours of `box`, scene-linear.
-Colours colours_in(const Image &image, const Imath::Box2i &box, const std::string &name) {
+Rgb colours_in(const Image &image, const Imath::Box2i &box, const std::string &name) {
     const auto rgb = find_rgb(image.channels);
     if (!all_found(rgb)) throw Error(name + ": it lacks R, G or B");
-    Colours result{Grid(box), {}};
+    Rgb result{Grid(box), {}};
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < result.grid.size(); ++i) {
             const Imath::V2i at = result.grid.pixel(i);
@@ -145,7 +145,7 @@ void Reduced::find_depths() {
     pictures.middle = (pictures.far + pictures.near) / 2;
 }
 
-Colours Reduced::gather(const ApertureShape &shape, double coc, double scale, bool exactly) const {
+Rgb Reduced::gather(const ApertureShape &shape, double coc, double scale, bool exactly) const {
     const double focus = std::max(pictures.middle + coc / scale, 0.0);
     Progress none;
     PictureOptions by = exactly ? exactly_ : quickly_;

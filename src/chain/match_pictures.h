@@ -38,7 +38,7 @@ public:
     double depth_scale() const; // R F, pixels times scene units
     const ApertureShape &shape() const { return exactly_.gather.lens.looks.aperture; }
     // Through a lens of another shape.
-    Colours gather(const ApertureShape &shape, double coc, double scale, bool exactly) const;
+    Rgb gather(const ApertureShape &shape, double coc, double scale, bool exactly) const;
 
 private:
     void choose_gathers(const Match &match, bool is_final);

@@ -108,8 +108,8 @@ Robust robust_fit(const std::vector<Row> &rows) {
 // The pixels of a block.
 class Block {
 public:
-    Block(const Grey &plate, std::span<const std::uint8_t> usable, const Colours &gathered,
-          std::span<const Colours> changes, const Imath::Box2i &box)
+    Block(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered,
+          std::span<const Rgb> changes, const Imath::Box2i &box)
         : plate_(plate), usable_(usable), gathered_(gathered), changes_(changes), box_(box) {}
 
     BlockFit fit() {
@@ -197,16 +197,16 @@ private:
 
     const Grey &plate_;
     std::span<const std::uint8_t> usable_;
-    const Colours &gathered_;
-    std::span<const Colours> changes_;
+    const Rgb &gathered_;
+    std::span<const Rgb> changes_;
     Imath::Box2i box_;
     double middle_ = 0; // of V
 };
 
 } // namespace
 
-std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable,
-                                 const Colours &gathered, std::span<const Colours> changes) {
+std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered,
+                                 std::span<const Rgb> changes) {
     const Tiles tiles(plate.grid.box(), MatchTuning::compared_block_px);
     std::vector<BlockFit> fits(tiles.count());
     parallel_for(tiles.count(), [&](std::size_t i) {

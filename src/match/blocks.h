@@ -7,7 +7,7 @@
 // an actor, so that block says nothing.
 #pragma once
 
-#include "match/colours.h"
+#include "match/pictures.h"
 
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct BlockFit {
 };
 
 // `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: [pixel], 0: not compared.
-std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable,
-                                 const Colours &gathered, std::span<const Colours> changes);
+std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered,
+                                 std::span<const Rgb> changes);
 
 } // namespace sparselens

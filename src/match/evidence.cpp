@@ -25,7 +25,7 @@ Values moved(const Values &values, const Grid &grid, int dx, int dy) {
 
 } // namespace
 
-Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, const Colours &gathered) {
+Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered) {
     using Fits = std::vector<BlockFit>;
     const Fits here = fit_blocks(plate, usable, gathered, {});
     const std::vector<std::uint8_t> mask(usable.begin(), usable.end());

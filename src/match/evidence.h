@@ -12,6 +12,6 @@ struct Evidence {
     double matched_share() const { return textured > 0 ? double(matched) / textured : 0; }
 };
 
-Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, const Colours &gathered);
+Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered);
 
 } // namespace sparselens

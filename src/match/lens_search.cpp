@@ -51,7 +51,7 @@ BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &
     return guess;
 }
 
-Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness) {
+Rgb as_plate(const Comparison &pictures, const Rgb &gathered, double softness) {
     return with_curve_of(pictures.colours, pictures.usable, tone_mapped(softened(gathered, softness)));
 }
 
@@ -65,9 +65,9 @@ std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &
     std::vector<Scored> scored;
     for (const double scale : scales(pictures, known))
         for (const double coc : cocs(pictures, known, scale)) {
-            const Colours linear = pictures.gather(coc, scale, false);
+            const Rgb linear = pictures.gather(coc, scale, false);
             for (const double softness : {0.15, 1.0}) {
-                const Colours shown = as_plate(pictures, linear, softness);
+                const Rgb shown = as_plate(pictures, linear, softness);
                 scored.push_back({{coc, scale, softness},
                                   likelihood_of(fit_blocks(pictures.plate, pictures.usable, shown, {}))});
             }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "match/blocks.h"
-#include "match/colours.h"
+#include "match/pictures.h"
 
 #include <array>
 #include <functional>
@@ -22,12 +22,12 @@ struct BlurGuess {
 
 // Two pictures to compare, and the depths that they show.
 struct Comparison {
-    Colours colours;                      // of the plate, tone-mapped
+    Rgb colours;                          // of the plate, tone-mapped
     Grey plate;                           // their brightness
     std::vector<std::uint8_t> usable;     // [pixel]
     double near = 0, middle = 0, far = 0; // perceptive depths for scale 1, pixels
     // The gathered picture, scene-linear; `exactly`, or quickly with more noise.
-    std::function<Colours(double coc, double scale, bool exactly)> gather;
+    std::function<Rgb(double coc, double scale, bool exactly)> gather;
 };
 
 // Values that are known beforehand.
@@ -43,7 +43,7 @@ double half_range(const Comparison &pictures);
 BlurGuess allowed(BlurGuess guess, const Comparison &pictures, const KnownLens &known);
 
 // The gathered picture as a plate of this softness shows it, with the tone curve of the plate.
-Colours as_plate(const Comparison &pictures, const Colours &gathered, double softness);
+Rgb as_plate(const Comparison &pictures, const Rgb &gathered, double softness);
 
 // How uncertain a fit is: the variances of its CoC and its scale, and their covariance.
 struct LensCovariance {
@@ -65,7 +65,7 @@ struct LensFit {
     LensCovariance covariance; // from how much the blocks differ from each other
     Changes motion{};          // of the plate: the two last changes
     std::vector<BlockFit> blocks;
-    Colours shown; // the gathered picture, softened and tone-mapped
+    Rgb shown; // the gathered picture, softened and tone-mapped
 };
 
 // The guesses that a search may begin with, the best first; no two lie on one hill.

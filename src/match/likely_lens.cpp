@@ -36,7 +36,7 @@ LikelyLens softest(const Comparison &pictures, const KnownLens &known, const Blu
     LikelyLens best = compared(pictures, known, guess);
     const auto look = [&](double softness) {
         const Softness at{std::clamp(softness, MatchTuning::least_softness, MatchTuning::most_softness), 0};
-        Colours shown = as_plate(pictures, best.linear, at.value);
+        Rgb shown = as_plate(pictures, best.linear, at.value);
         const double there = likelihood_of(fit_blocks(pictures.plate, pictures.usable, shown, {}));
         if (there > best.likelihood) {
             best.likelihood = there;

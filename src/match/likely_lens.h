@@ -8,7 +8,7 @@ namespace sparselens {
 struct LikelyLens {
     BlurGuess guess;
     double likelihood = 0;
-    Colours linear, shown; // its picture: as gathered, and as the plate shows it
+    Rgb linear, shown; // its picture: as gathered, and as the plate shows it
 };
 
 // The picture of the nearest guess that is allowed.

@@ -17,7 +17,7 @@ std::vector<BlockFit> blocks_at(const Comparison &pictures, const LikelyLens &at
     const double less = std::max(softness - MatchTuning::softness_step, MatchTuning::least_softness),
                  more = softness + MatchTuning::softness_step;
     auto [along, across] = motion_changes(at.shown);
-    const std::vector<Colours> changes{
+    const std::vector<Rgb> changes{
         slopes.by_coc, slopes.by_ends,
         difference(as_plate(pictures, at.linear, more), as_plate(pictures, at.linear, less), more - less),
         std::move(along), std::move(across)};

@@ -13,7 +13,7 @@ namespace sparselens {
 // How each pixel of a lens's picture changes with the CoC at the middle depth, and with the CoC at the ends of the
 // range of depths.
 struct Slopes {
-    Colours by_coc, by_ends;
+    Rgb by_coc, by_ends;
 };
 
 LensFit fit_with(const Comparison &pictures, const KnownLens &known, const LikelyLens &at,

@@ -38,7 +38,7 @@ public:
         reach_ = std::max(reach_, MatchTuning::settled_px);
         while (near_best() < quadratic_terms && reach_ < MatchTuning::farthest_px) reach_ *= 2;
         std::vector<Place> places;
-        std::vector<Colours> shown;
+        std::vector<Rgb> shown;
         for (const LikelyLens &one : tried_)
             if (is_near(one)) {
                 places.push_back(place_of(one.guess));
@@ -56,8 +56,8 @@ public:
 private:
     const LikelyLens &best() const { return tried_[best_]; }
 
-    Colours slope(std::span<const double> shares, std::span<const Colours> shown) const {
-        Colours result = black(best().shown.grid);
+    Rgb slope(std::span<const double> shares, std::span<const Rgb> shown) const {
+        Rgb result = black(best().shown.grid);
         for (std::size_t p = 0; p < shown.size(); ++p)
             for (std::size_t k = 0; k < 3; ++k)
                 for (std::size_t i = 0; i < result.rgb[k].size(); ++i)

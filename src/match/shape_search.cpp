@@ -28,8 +28,7 @@ public:
 
     // How well a shape fits at this guess.
     double likelihood(const ApertureShape &shape, const BlurGuess &guess) const {
-        const Colours shown =
-            as_plate(pictures_, gather_(shape, guess.coc, guess.scale, true), guess.softness);
+        const Rgb shown = as_plate(pictures_, gather_(shape, guess.coc, guess.scale, true), guess.softness);
         return likelihood_of(fit_blocks(pictures_.plate, pictures_.usable, shown, {}));
     }
 

@@ -12,8 +12,7 @@
 namespace sparselens {
 
 // What lens_search.h gathers, through a lens of this shape.
-using ShapedGather =
-    std::function<Colours(const ApertureShape &shape, double coc, double scale, bool exactly)>;
+using ShapedGather = std::function<Rgb(const ApertureShape &shape, double coc, double scale, bool exactly)>;
 
 struct ShapeFit {
     ApertureShape shape;

@@ -129,7 +129,7 @@ private:
 
 // `points(k)`: of channel k.
 template <typename Points>
-Colours with_curves(Colours shown, const Points &points) {
+Rgb with_curves(Rgb shown, const Points &points) {
     parallel_for(3, [&](std::size_t k) {
         std::vector<Point> some = rising(points(k));
         if (some.empty()) return;
@@ -143,8 +143,7 @@ Colours with_curves(Colours shown, const Points &points) {
 }
 
 // The weight of each pixel: small in blocks that are farther from the plate than most blocks, 0 if it is not usable.
-std::vector<float> likeness(const Colours &plate, std::span<const std::uint8_t> usable,
-                            const Colours &shown) {
+std::vector<float> likeness(const Rgb &plate, std::span<const std::uint8_t> usable, const Rgb &shown) {
     const Tiles tiles(plate.grid.box(), MatchTuning::compared_block_px);
     std::vector<double> errors(tiles.count());
     for (std::size_t t = 0; t < tiles.count(); ++t) {
@@ -170,8 +169,8 @@ std::vector<float> likeness(const Colours &plate, std::span<const std::uint8_t> 
 
 } // namespace
 
-Colours with_curve_of(const Colours &plate, std::span<const std::uint8_t> usable, const Colours &shown) {
-    const Colours about =
+Rgb with_curve_of(const Rgb &plate, std::span<const std::uint8_t> usable, const Rgb &shown) {
+    const Rgb about =
         with_curves(shown, [&](std::size_t k) { return median_points(plate.rgb[k], usable, shown.rgb[k]); });
     const std::vector<float> weights = likeness(plate, usable, about);
     return with_curves(shown,

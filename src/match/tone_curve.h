@@ -2,7 +2,7 @@
 // rising function of each channel. It is found by comparing the plate with a gathered picture pixel by pixel.
 #pragma once
 
-#include "match/colours.h"
+#include "match/pictures.h"
 
 #include <cstdint>
 #include <span>
@@ -12,6 +12,6 @@ namespace sparselens {
 // Gives the tone-mapped picture the curve at which each of its channels is nearest to that of the plate: the mean
 // of the plate over the pixels of about one value, made rising (isotonic regression, Ayer et al. 1955). Blocks that
 // differ much more than most, such as those of an actor, hardly count. `usable`: [pixel], 0: not compared.
-Colours with_curve_of(const Colours &plate, std::span<const std::uint8_t> usable, const Colours &shown);
+Rgb with_curve_of(const Rgb &plate, std::span<const std::uint8_t> usable, const Rgb &shown);
 
 } // namespace sparselens

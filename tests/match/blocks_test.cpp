@@ -10,7 +10,7 @@ namespace {
 constexpr double least = MatchTuning::least_error * MatchTuning::least_error;
 
 // A plate of these factors of R, G and B, with a quadratic tone curve.
-Grey graded(const Colours &shown, float r, float g, float b) {
+Grey graded(const Rgb &shown, float r, float g, float b) {
     Grey plate{shown.grid, {}};
     for (std::size_t i = 0; i < shown.grid.size(); ++i) {
         const float v = (shown.rgb[0][i] + shown.rgb[1][i] + shown.rgb[2][i]) / 3;
@@ -21,7 +21,7 @@ Grey graded(const Colours &shown, float r, float g, float b) {
 }
 
 TEST(FitBlocks, exposure_and_a_quadratic_tone_curve_do_not_count) {
-    const Colours shown = test::waves(32, 32);
+    const Rgb shown = test::waves(32, 32);
     const Grey plate = graded(shown, 0.3f, 0.3f, 0.3f);
     for (const BlockFit &block : fit_blocks(plate, test::all_usable(plate.grid), shown, {})) {
         EXPECT_EQ(block.pixels, 256);
@@ -32,7 +32,7 @@ TEST(FitBlocks, exposure_and_a_quadratic_tone_curve_do_not_count) {
 
 // The factors of colours are drawn towards each other, by what is left without them.
 TEST(FitBlocks, a_grade_hardly_counts) {
-    const Colours shown = test::waves(32, 32);
+    const Rgb shown = test::waves(32, 32);
     const Grey plate = graded(shown, 0.5f, 0.2f, 0.4f);
     for (const BlockFit &block : fit_blocks(plate, test::all_usable(plate.grid), shown, {}))
         EXPECT_LT(block.left, 2e-3 * block.before);
@@ -59,7 +59,7 @@ TEST(FitBlocks, the_shift_of_the_plate_is_found) {
     const auto wave = [](double x, double y) {
         return 0.5 + 0.2 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y);
     };
-    const Colours shown = test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x, y); });
+    const Rgb shown = test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x, y); });
     const Grey plate = brightness(
         test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x - 0.2, y + 0.1); }));
     const BlockFit block = fit_blocks(plate, test::all_usable(plate.grid), shown, {}).front();
@@ -72,7 +72,7 @@ TEST(FitBlocks, a_few_wrong_pixels_hardly_count) {
     const auto wave = [](double x, double y) {
         return 0.5 + 0.2 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y);
     };
-    const Colours shown = test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x, y); });
+    const Rgb shown = test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x, y); });
     Grey plate = brightness(
         test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x - 0.2, y + 0.1); }));
     for (const int x : {3, 4, 5, 6})
@@ -84,13 +84,12 @@ TEST(FitBlocks, a_few_wrong_pixels_hardly_count) {
 
 // The pull over the stiffness is the amount of the change that the plate has.
 TEST(FitBlocks, a_change_is_measured) {
-    const Colours shown = test::waves(16, 16);
-    Colours change =
-        test::colours(16, 16, [](double x, double y, std::size_t) { return std::sin(1.1 * x * y); });
-    Colours plate = shown;
+    const Rgb shown = test::waves(16, 16);
+    Rgb change = test::colours(16, 16, [](double x, double y, std::size_t) { return std::sin(1.1 * x * y); });
+    Rgb plate = shown;
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < plate.grid.size(); ++i) plate.rgb[k][i] += 0.03f * change.rgb[k][i];
-    const std::vector<Colours> changes{change};
+    const std::vector<Rgb> changes{change};
     const BlockFit block =
         fit_blocks(brightness(plate), test::all_usable(plate.grid), shown, changes).front();
     EXPECT_NEAR(block.pull[0] / block.stiffness[0][0], 0.03, 0.003);
@@ -98,9 +97,9 @@ TEST(FitBlocks, a_change_is_measured) {
 }
 
 TEST(FitBlocks, a_change_is_measured_through_a_grade_and_a_tone_curve) {
-    const Colours shown = test::waves(16, 16);
-    Colours changed = shown;
-    const Colours change =
+    const Rgb shown = test::waves(16, 16);
+    Rgb changed = shown;
+    const Rgb change =
         test::colours(16, 16, [](double x, double y, std::size_t) { return std::sin(1.1 * x * y); });
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < shown.grid.size(); ++i) changed.rgb[k][i] += 0.003f * change.rgb[k][i];
@@ -111,7 +110,7 @@ TEST(FitBlocks, a_change_is_measured_through_a_grade_and_a_tone_curve) {
 }
 
 TEST(FitBlocks, unusable_pixels_are_not_compared) {
-    const Colours shown = test::waves(32, 16);
+    const Rgb shown = test::waves(32, 16);
     Grey plate = brightness(shown);
     std::vector<std::uint8_t> usable = test::all_usable(plate.grid);
     for (std::size_t i = 0; i < usable.size(); i += 7) usable[i] = 0, plate.values[i] = 100;

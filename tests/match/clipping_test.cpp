@@ -10,7 +10,7 @@ namespace sparselens {
 namespace {
 
 // A slope with three bright discs, as a plate shows lamps.
-Colours lamps(double brightness) {
+Rgb lamps(double brightness) {
     return test::colours(96, 64, [=](double x, double y, std::size_t) {
         for (const double at : {20.0, 50.0, 80.0})
             if (std::hypot(x - at, y - 30) < 5) return brightness;
@@ -18,13 +18,13 @@ Colours lamps(double brightness) {
     });
 }
 
-Colours raised(Colours plate) {
+Rgb raised(Rgb plate) {
     for (std::vector<float> &plane : plate.rgb) raise_clipped(plane);
     return plate;
 }
 
 TEST(Clipping, raises_the_lamps_that_a_plate_clips_and_nothing_else) {
-    const Colours plate = lamps(1), result = raised(plate);
+    const Rgb plate = lamps(1), result = raised(plate);
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < plate.grid.size(); ++i) {
             if (plate.rgb[k][i] == 1)
@@ -42,34 +42,34 @@ TEST(Clipping, the_least_clipped_value_is_raised_too) {
 }
 
 TEST(Clipping, only_clipped_channels_are_raised) {
-    Colours plate = lamps(1);
+    Rgb plate = lamps(1);
     plate.rgb[2] = test::colours(96, 64, [](double x, double, std::size_t) { return 0.005 * x; }).rgb[2];
-    const Colours result = raised(plate);
+    const Rgb result = raised(plate);
     EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
     EXPECT_EQ(result.rgb[2], plate.rgb[2]);
 }
 
 TEST(Clipping, grain_does_not_hide_it) {
-    Colours plate = lamps(1);
+    Rgb plate = lamps(1);
     std::uint32_t state = 1;
     for (std::vector<float> &plane : plate.rgb)
         for (float &v : plane) {
             state = state * 1664525u + 1013904223u;
             v = std::min(v + 0.06f * (float(state >> 8) / float(1 << 24) - 0.5f), 1.0f);
         }
-    const Colours result = raised(plate);
+    const Rgb result = raised(plate);
     EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
     EXPECT_LT(result.rgb[0][plate.grid.index(35, 30)], 1);
 }
 
 TEST(Clipping, a_picture_that_fades_to_its_largest_value_has_none) {
-    const Colours plate =
+    const Rgb plate =
         test::colours(96, 64, [](double x, double y, std::size_t) { return 0.1 + 0.005 * x + 0.004 * y; });
     EXPECT_EQ(raised(plate).rgb, plate.rgb);
 }
 
 TEST(Clipping, a_black_plate_has_none) {
-    const Colours plate = test::colours(32, 32, [](double, double, std::size_t) { return 0.0; });
+    const Rgb plate = test::colours(32, 32, [](double, double, std::size_t) { return 0.0; });
     EXPECT_EQ(raised(plate).rgb, plate.rgb);
 }
 

@@ -8,7 +8,7 @@ namespace sparselens {
 namespace {
 
 // A plate with another tone curve and exposure.
-Colours graded(Colours plate) {
+Rgb graded(Rgb plate) {
     for (std::vector<float> &plane : plate.rgb)
         for (float &v : plane) v = 0.02f + 0.7f * std::pow(v, 0.8f);
     return plate;
@@ -33,7 +33,7 @@ TEST(LensSearch, finds_the_focus_and_the_lens_of_a_graded_plate) {
 }
 
 TEST(LensSearch, tells_softness_of_the_whole_from_the_lens) {
-    const Colours soft = softened(test::blurred_waves(128, 64, 1, 0.7), 0.8);
+    const Rgb soft = softened(test::blurred_waves(128, 64, 1, 0.7), 0.8);
     const LensFit fit = found(test::slope_before(graded(soft)), {});
     EXPECT_NEAR(fit.guess.softness, 0.8, 0.15);
     EXPECT_NEAR(fit.guess.scale, 0.7, 0.03);
@@ -51,7 +51,7 @@ TEST(LensSearch, keeps_what_is_known) {
 
 // The covariance comes from the spread between blocks, so noise widens it.
 TEST(LensSearch, noise_widens_the_spread) {
-    Colours noisy = graded(test::blurred_waves(128, 64, 1, 0.7));
+    Rgb noisy = graded(test::blurred_waves(128, 64, 1, 0.7));
     const LensFit before = found(test::slope_before(noisy), {});
     std::uint32_t state = 1;
     for (std::vector<float> &plane : noisy.rgb)
@@ -65,10 +65,10 @@ TEST(LensSearch, noise_widens_the_spread) {
 }
 
 // Each gathered picture has noise of its own, as those of lens points have.
-Comparison noisy_slope_before(const Colours &plate, float amount) {
+Comparison noisy_slope_before(const Rgb &plate, float amount) {
     Comparison pictures = test::slope_before(plate);
     pictures.gather = [gather = pictures.gather, amount](double coc, double scale, bool exactly) {
-        Colours gathered = gather(coc, scale, exactly);
+        Rgb gathered = gather(coc, scale, exactly);
         auto state = std::uint32_t(std::llround(1e6 * std::abs(coc) + 1e8 * scale));
         for (std::vector<float> &plane : gathered.rgb)
             for (float &v : plane) {
@@ -142,8 +142,8 @@ TEST(LensSearch, axes_of_an_ellipse) {
 }
 
 TEST(Evidence, a_picture_matches_itself_and_not_another) {
-    const Colours shown = test::waves(192, 96);
-    const Colours other = test::colours(192, 96, [](double x, double y, std::size_t k) {
+    const Rgb shown = test::waves(192, 96);
+    const Rgb other = test::colours(192, 96, [](double x, double y, std::size_t k) {
         return 0.5 + 0.3 * std::sin(0.013 * x * y + double(k)) * std::cos(0.31 * x);
     });
     const auto usable = test::all_usable(shown.grid);

@@ -33,8 +33,8 @@ constexpr std::array all_lamps{Lamp{24.3, 22.7, 4}, Lamp{70.1, 30.2, 2}, Lamp{12
                                Lamp{40.8, 80.4, 3}, Lamp{97.2, 84.9, 4}, Lamp{137, 70, 2}};
 
 // Lamps behind the focus, each of the same light, before a grey ground.
-Colours lamps(const ApertureShape &shape, double coc, double scale) {
-    Colours result = test::colours(width, height, [](double, double, std::size_t) { return 0.05; });
+Rgb lamps(const ApertureShape &shape, double coc, double scale) {
+    Rgb result = test::colours(width, height, [](double, double, std::size_t) { return 0.05; });
     for (const Lamp &lamp : all_lamps) {
         const double radius = coc - scale * (lamp.depth - 7),
                      light = 150 / (area_of(shape) * radius * radius);

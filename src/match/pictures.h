@@ -16,27 +16,27 @@ struct Grey {
     std::vector<float> values; // [pixel]
 };
 
-// A gathered picture.
-struct Colours {
+// A picture in colour.
+struct Rgb {
     Grid grid;
     std::array<std::vector<float>, 3> rgb; // [channel][pixel]
 };
 
 // Blurs scene-linear colours by a Gaussian of this variance, square pixels, as a soft lens or film does. A negative
 // variance, at least -0.4, sharpens. Pixels beyond the border repeat it.
-Colours softened(const Colours &linear, double variance);
+Rgb softened(const Rgb &linear, double variance);
 
-Colours tone_mapped(Colours linear);
+Rgb tone_mapped(Rgb linear);
 
 // The mean of R, G and B of tone-mapped colours.
-Grey brightness(const Colours &of);
+Grey brightness(const Rgb &of);
 
-Colours black(const Grid &grid);
+Rgb black(const Grid &grid);
 
 // (a - b) / step.
-Colours difference(Colours a, const Colours &b, double step);
+Rgb difference(Rgb a, const Rgb &b, double step);
 
 // How a picture changes if it is blurred more along x than along y, and along the falling diagonal.
-std::pair<Colours, Colours> motion_changes(const Colours &of);
+std::pair<Rgb, Rgb> motion_changes(const Rgb &of);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-#include "match/colours.h"
+#include "match/pictures.h"
 
 #include "base/parallel.h"
 #include "base/tone_map.h"
@@ -54,15 +54,15 @@ std::vector<float> softened(const std::vector<float> &values, int width, std::sp
 
 } // namespace
 
-Colours softened(const Colours &linear, double variance) {
+Rgb softened(const Rgb &linear, double variance) {
     if (variance == 0) return linear;
     const std::vector<float> weights = gaussian(variance);
-    Colours result{linear.grid, {}};
+    Rgb result{linear.grid, {}};
     for (std::size_t k = 0; k < 3; ++k) result.rgb[k] = softened(linear.rgb[k], linear.grid.width(), weights);
     return result;
 }
 
-Colours tone_mapped(Colours linear) {
+Rgb tone_mapped(Rgb linear) {
     for (std::vector<float> &plane : linear.rgb)
         parallel_ranges(plane.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) plane[i] = float(tone_mapped(double(plane[i])));
@@ -70,27 +70,27 @@ Colours tone_mapped(Colours linear) {
     return linear;
 }
 
-Grey brightness(const Colours &of) {
+Grey brightness(const Rgb &of) {
     Grey result{of.grid, std::vector<float>(of.rgb[0].size())};
     for (std::size_t i = 0; i < result.values.size(); ++i)
         result.values[i] = (of.rgb[0][i] + of.rgb[1][i] + of.rgb[2][i]) / 3;
     return result;
 }
 
-Colours difference(Colours a, const Colours &b, double step) {
+Rgb difference(Rgb a, const Rgb &b, double step) {
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < a.rgb[k].size(); ++i)
             a.rgb[k][i] = float((double(a.rgb[k][i]) - double(b.rgb[k][i])) / step);
     return a;
 }
 
-Colours black(const Grid &grid) {
+Rgb black(const Grid &grid) {
     const std::vector<float> plane(grid.size());
     return {grid, {plane, plane, plane}};
 }
 
-std::pair<Colours, Colours> motion_changes(const Colours &of) {
-    Colours along = black(of.grid), across = along;
+std::pair<Rgb, Rgb> motion_changes(const Rgb &of) {
+    Rgb along = black(of.grid), across = along;
     const Imath::Box2i box = of.grid.box();
     for (std::size_t k = 0; k < 3; ++k)
         for (int y = box.min.y; y <= box.max.y; ++y)
