@@ -1,6 +1,7 @@
 #!/bin/bash
-# No two types share a name in one namespace, because a program that links both would use either. Types in unnamed
-# namespaces do not count. tests/lto.sh finds clashes that this does not, such as functions.
+# No two types share a name in one namespace, because a program that links both would use either, and a file could not
+# include both. An alias is a type. Types in unnamed namespaces do not count, and the compiler finds two of one file.
+# tests/lto.sh finds clashes that this does not, such as functions.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -12,24 +13,54 @@ defined() {
     /^\} \/\/ namespace$/ { unnamed = ""; next }
     match($0, /^namespace [A-Za-z0-9_:]+ \{/) { spaces = spaces "::" $2; next }
     /^\} \/\/ namespace ./ { sub("::" $4 "$", "", spaces); next }
-    unnamed == "" && match($0, /^(struct|class|enum|enum class|union) [A-Za-z0-9_]+[^;<]*\{/) {
+    unnamed == "" && (/^(struct|class|enum|enum class|union) [A-Za-z0-9_]+[^;<]*\{/ || /^using [A-Za-z0-9_]+ [^;]*=/) {
         name = $1 == "enum" && $2 == "class" ? $3 : $2
         if (name ~ /::/) next # the members of a class that its header declares
         sub(/[:{].*/, "", name)
         full = spaces "::" name
         place = FILENAME ":" FNR
-        if (full in first) print substr(full, 3) ": " first[full] " and " place
+        if (full in first && file[full] != FILENAME) print substr(full, 3) ": " first[full] " and " place
         first[full] = place
+        file[full] = FILENAME
     }' "$@"
 }
 
 # The check finds what it should.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-printf 'namespace a {\nnamespace {\nstruct Mine {\n};\n} // namespace\nstruct Twice : Base {\n};\nenum class Kind { x };\nstruct Other;\n} // namespace a\n' >"$scratch/one.h"
-printf 'namespace a {\nstruct Mine {\n};\nclass Twice {\n};\nstruct Twice::Impl {\n};\nstruct Other {\n};\n} // namespace a\nnamespace b {\nenum class Kind { y };\n} // namespace b\n' >"$scratch/two.h"
-found=$(defined "$scratch/one.h" "$scratch/two.h")
-[ "$found" = "a::Twice: $scratch/one.h:6 and $scratch/two.h:4" ] || { echo "names.sh finds: $found"; exit 1; }
+cat >"$scratch/one.h" <<'END'
+namespace a {
+namespace {
+struct Mine {};
+using Own = int;
+} // namespace
+struct Twice : Base {};
+enum class Kind { x };
+struct Other;
+using Alias = int;
+using std::abs;
+} // namespace a
+END
+cat >"$scratch/two.h" <<'END'
+namespace a {
+struct Mine {
+    using Alias = int;
+};
+class Twice {};
+struct Twice::Impl {};
+struct Other {};
+using Own =
+    int;
+using Own = int;
+using Alias [[gnu::vector_size(16)]] = float;
+using std::abs;
+} // namespace a
+namespace b {
+enum class Kind { y };
+} // namespace b
+END
+found=$(cd "$scratch" && defined one.h two.h)
+[ "$found" = $'a::Twice: one.h:6 and two.h:5\na::Alias: one.h:9 and two.h:11' ] || { echo "names.sh finds: $found"; exit 1; }
 
 mapfile -t files < <(find src tools lab -name '*.h' -o -name '*.cpp' | sort)
 [ "${#files[@]}" -gt 500 ] || { echo "only ${#files[@]} files"; exit 1; }
