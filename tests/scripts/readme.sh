@@ -70,6 +70,7 @@ cat >>options <<'END'
 --preset
 --requeue
 --resize
+--set
 --source-dir
 --system-site-packages
 --test-dir
