@@ -42,9 +42,10 @@ std::vector<double> stated_samples(const FinishCommand &options, const ToolConte
     return std::vector<double>(options.renders.size(), 1);
 }
 
-// Adds the renders one after the other, so that only their sum stays in memory.
+// Adds the renders one after the other, so that only their sum stays in memory. `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
-                   const FlatFile &gathered, const ToolContext &tool) {
+                   const FlatFile &gathered, const ToolContext &tool,
+                   void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered.image);
     Camera lens = read_camera(gathered.header);
     if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
@@ -53,7 +54,7 @@ TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<doub
         if (const auto other = lens_differences(lens, read_camera(file.header)); !other.empty())
             warn(tool, fmt::format("{}: another lens than that of the gathered picture: {}", paths[k],
                                    fmt::join(other, "; ")));
-        halves.add({paths[k], std::move(file.image), samples[k]});
+        (halves.*add)({paths[k], std::move(file.image), samples[k]});
     }
     return halves;
 }
@@ -87,7 +88,8 @@ std::vector<FrameAround> read_around(const FinishCommand &options, const std::ve
         if (file.image.windows.display != gathered.image.windows.display)
             throw Error(names[0] + ": its size differs from that of " + options.gathered);
         names.erase(names.begin());
-        around.push_back({std::move(file.image), added_up(names, samples, gathered, tool)});
+        around.push_back(
+            {std::move(file.image), added_up(names, samples, gathered, tool, &TwoHalves::add_noisy)});
     }
     tool.say(fmt::format("frames around: {}", around.size()));
     return around;
@@ -143,9 +145,9 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     FlatFile file = read(options.gathered, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;
-    PictureToFinish picture{{}, added_up(options.renders, samples, file, tool)};
+    PictureToFinish picture{{}, added_up(options.renders, samples, file, tool, &TwoHalves::add_noisy)};
     if (!options.denoised.empty())
-        picture.denoised.push_back(added_up(options.denoised, samples, file, tool));
+        picture.denoised.push_back(added_up(options.denoised, samples, file, tool, &TwoHalves::add));
     for (const std::string &path : options.others) picture.others.push_back(read(path, tool).image);
     if (options.neighbours > 0) picture.around = read_around(options, samples, file, tool);
     picture.gathered = std::move(file.image);

@@ -56,6 +56,20 @@ void check_window(const Render &render, const Windows &windows) {
                             windows.display_height()));
 }
 
+// Whether two renders have the same noise. Pixels that equal their neighbour do not tell, because they may have none; of
+// the others, those in focus and without textures may be equal in two honest renders.
+bool have_same_noise(std::span<const half> a, std::span<const half> b) {
+    constexpr std::size_t all_but =
+        10; // one in ten may differ: in files of another compression, or made by another GPU
+    std::size_t told = 0, differ = 0;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        if (a[i] == a[i - 1]) continue;
+        ++told;
+        differ += a[i] != b[i];
+    }
+    return told > 0 && differ * all_but < told;
+}
+
 // Leaves only finite values: where a render has none, the gathered value; where the gathered picture has none either,
 // 0.
 void settle(Colours &gathered, std::vector<Halves *> halves) {
@@ -176,6 +190,20 @@ void TwoHalves::add(const Render &render) {
             for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * (values[i] - sum[i]);
     }
     missing_ += missing;
+}
+
+void TwoHalves::add_noisy(const Render &render) {
+    check_window(render, windows_);
+    if (const std::size_t from = find_channel(render.image.channels, rgb_names[1]); from != npos) {
+        const Values values = over(render.image, from, windows_);
+        std::vector<half> own(values.begin(), values.end());
+        for (const auto &[name, other] : noisy_)
+            if (have_same_noise(own, other))
+                throw Error(fmt::format("{}: has the same noise as {}: render each with a seed of its own",
+                                        render.name, name));
+        noisy_.emplace_back(render.name, std::move(own));
+    }
+    add(render);
 }
 
 std::array<Values, 2> TwoHalves::take(std::size_t channel) {

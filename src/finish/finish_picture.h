@@ -7,7 +7,10 @@
 #include "finish/error_estimate.h"
 #include "finish/lens_check.h"
 
+#include <Imath/half.h>
+
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -27,6 +30,9 @@ public:
 
     // Throws Error, naming the file, if its display window differs from that of the gathered picture.
     void add(const Render &render);
+    // The same for a render with noise. Also throws Error if it has the noise of an earlier one: it is the same render, or
+    // one with the same seed, so the difference of the halves would not tell the noise.
+    void add_noisy(const Render &render);
     bool complete() const; // whether both halves have a render
 
     std::array<double, 2> samples() const { return samples_; }
@@ -45,6 +51,7 @@ private:
     std::vector<bool> has_;
     std::array<double, 2> samples_{0, 0};
     std::size_t missing_ = 0;
+    std::vector<std::pair<std::string, std::vector<half>>> noisy_; // the name and the green of each
 };
 
 // A frame near the one to finish (frames_around.h).

@@ -54,11 +54,12 @@ void check_count(const char *name, std::size_t count, std::size_t rays) {
         throw UsageError(fmt::format("{}: {} for {} renders: give one for each", name, count, rays));
 }
 
+// `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector<double> &samples,
-                   const Image &gathered) {
+                   const Image &gathered, void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered);
     for (std::size_t k = 0; k < pictures.size(); ++k)
-        halves.add({fmt::format("{}[{}]", name, k), pictures[k]->image, samples[k]});
+        (halves.*add)({fmt::format("{}[{}]", name, k), pictures[k]->image, samples[k]});
     return halves;
 }
 
@@ -106,10 +107,13 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     const py::object progress = keywords.take("progress");
     keywords.done();
     FinishedPicture made = job<FinishedPicture>(progress, [&](Progress &said) {
-        PictureToFinish picture{in.image, added_up("rays", renders, samples, in.image)};
-        if (!denoised.empty()) picture.denoised.push_back(added_up("denoised", denoised, samples, in.image));
+        PictureToFinish picture{in.image,
+                                added_up("rays", renders, samples, in.image, &TwoHalves::add_noisy)};
+        if (!denoised.empty())
+            picture.denoised.push_back(added_up("denoised", denoised, samples, in.image, &TwoHalves::add));
         for (const auto &[other, of_other] : around)
-            picture.around.push_back({other->image, added_up("around", of_other, samples, in.image)});
+            picture.around.push_back(
+                {other->image, added_up("around", of_other, samples, in.image, &TwoHalves::add_noisy)});
         return finish_picture(std::move(picture), said);
     });
     for (const std::string &text : made.mistakes.warnings()) warn(text);

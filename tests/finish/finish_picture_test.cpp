@@ -73,6 +73,26 @@ TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     }
 }
 
+TEST(TwoHalves, TheSameNoiseTwiceIsAnErrorThatNamesBoth) {
+    TwoHalves halves(picture_of(truth));
+    Render first = render(1), second = render(2), again = first;
+    second.name = "two.exr", again.name = "again.exr";
+    halves.add_noisy(first);
+    halves.add_noisy(second);
+    for (int x = 0; x < grid.width(); ++x) again.image.at(1, x, 3) *= 1.5f; // of 48 rows
+    try {
+        halves.add_noisy(again);
+        FAIL() << "taken";
+    } catch (const Error &error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "again.exr: has the same noise as rays.exr: render each with a seed of its own");
+    }
+    EXPECT_EQ(halves.samples(), (std::array<double, 2>{16, 16}));
+    Render constant{"constant.exr", picture_of(Colours(3, Values(grid.size(), 0.5f)))}; // it cannot tell
+    halves.add_noisy(constant);
+    halves.add_noisy(constant);
+}
+
 // Renders with different data windows: where one has no data, the picture stays as gathered.
 TEST(FinishPicture, WhereARenderSaysNothingItStaysAsGathered) {
     Render first = render(1), second = render(2);
