@@ -29,6 +29,15 @@ function(sparselens_costs)
     endforeach()
 endfunction()
 
+# sparselens_slow(NAME...): tests/run.sh runs these only with --slow or --all; continuous integration does.
+function(sparselens_slow)
+    foreach(name IN LISTS ARGN)
+        if(TEST ${name})
+            set_property(TEST ${name} APPEND PROPERTY LABELS slow)
+        endif()
+    endforeach()
+endfunction()
+
 # What most unit tests include, compiled once.
 function(sparselens_precompiled_tests target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a job needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: blender, build, bundle, demo, gpu, lint, report, test
+#   tools/install-deps.sh SET...      sets: blender, build, bundle, ci, demo, gpu, lint, report, test
 #
 # Needs only a Debian base system (12 or later), and root or sudo if something is missing. Prints one line if everything
 # is installed; otherwise exits with 1 and one line that says why a package is not available.
@@ -12,9 +12,10 @@ blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
 bundle='libjpeg-dev libpng-dev libtiff-dev xz-utils'
+ci=ccache
 demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
-lint='clang-14 clang-format-14 clang-tidy-14'
+lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver gnuplot-nox'
 test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev libjpeg-dev libpng-dev
       libtiff-dev lintian munge mypy openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
@@ -41,6 +42,7 @@ packages_of() {
         blender) echo $blender ;;
         build) echo $build ;;
         bundle) echo $bundle ;;
+        ci) echo $ci ;;
         demo) echo $demo ;;
         gpu) echo $gpu ;;
         lint)
@@ -49,7 +51,7 @@ packages_of() {
             ;;
         report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (blender, build, bundle, demo, gpu, lint, report, test)" ;;
+        *) fail "unknown set '$set_name' (blender, build, bundle, ci, demo, gpu, lint, report, test)" ;;
         esac
     done
 }
@@ -72,7 +74,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: blender, build, bundle, demo, gpu, lint, report, test"
+[ $# -gt 0 ] || fail "name at least one set: blender, build, bundle, ci, demo, gpu, lint, report, test"
 wanted=$(packages_of "$@") || exit 1
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

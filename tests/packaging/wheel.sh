@@ -10,13 +10,22 @@ python=${2:-/usr/bin/python3}
 logged() { "$@" >log 2>&1 </dev/null || fail "$* ($(tail -n 20 log))"; }
 pip=(-m pip --disable-pip-version-check)
 
+# The preset lto: a compiler cache has most of what that compiled, and the reverse.
+flags=$("$python" -c 'import json, sys
+lto = next(p for p in json.load(open(sys.argv[1]))["configurePresets"] if p["name"] == "lto")["cacheVariables"]
+print(*(f"--config-settings=cmake.define.{name}={value}" for name, value in lto.items() if name != "CMAKE_BUILD_TYPE"), sep="\n")' \
+    "$source_dir/CMakePresets.json")
+mapfile -t unoptimised <<<"--config-settings=cmake.build-type=Debug
+--config-settings=cmake.define.SPARSELENS_WERROR=ON
+$flags"
+
 "$python" -m venv --system-site-packages build
 if ! build/bin/python -c 'import scikit_build_core' 2>/dev/null; then
     build/bin/python "${pip[@]}" install --retries 1 scikit-build-core >log 2>&1 ||
         skip "the wheel: scikit-build-core is not installed, and PyPI cannot be reached"
 fi
 logged build/bin/python "${pip[@]}" wheel --no-build-isolation --no-deps --no-index --wheel-dir wheels "$source_dir" \
-    --config-settings=build-dir="$source_dir/build-wheel/test" --config-settings=cmake.define.CMAKE_CXX_FLAGS_RELEASE=-O0
+    --config-settings=build-dir="$source_dir/build-wheel/test" "${unoptimised[@]}"
 wheels=(wheels/*)
 version=$(sed -nE 's/^project\(sparselens VERSION ([0-9.]+) .*/\1/p' "$source_dir/CMakeLists.txt")
 tag=$("$python" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
