@@ -16,6 +16,15 @@ function(sparselens_unit_tests name executable shards)
     endforeach()
 endfunction()
 
+# sparselens_use_traced(NAME...): these scripts use traced pictures (traced, tests/tools/check.sh), which are made before.
+function(sparselens_use_traced)
+    foreach(name IN LISTS ARGN)
+        if(TEST ${name})
+            set_tests_properties(${name} PROPERTIES FIXTURES_REQUIRED traced)
+        endif()
+    endforeach()
+endfunction()
+
 # sparselens_costs(NAME=SECONDS...): in a new folder ctest knows no times: the longest first, so that none is left to run
 # alone. In CPU seconds.
 function(sparselens_costs)

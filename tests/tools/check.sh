@@ -44,6 +44,25 @@ fails_saying() {
 # under test. OpenImageIO is used where a test asks what other programs see.
 picture() { "$bin/sparselens-pictures" "$@"; }
 
+# traced SCENE WIDTHxHEIGHT [FOLDER]: leaves in the folder (.) what all scripts of a build use, made once in traced/ beside
+# its bin/, or in the scratch folder for other tools: center.exr and, of 4 rays too, view_0.exr to view_3.exr at the rim of
+# the lens; their ldi.exr; rays_1.exr and rays_2.exr, of 32 rays together, and reference.exr, of 256, through the lens.
+traced() {
+    local all=${bin%/*}/traced made aside
+    [ -w "${bin%/*}/CMakeCache.txt" ] || all=$scratch/.traced
+    made=$all/$1-$2-$(stat -Lc %.Y "$bin/dof-trace" "$bin/ldi-warp" "$source_dir/tests/tools/check.sh" | cksum | cut -d ' ' -f 1)
+    if [ ! -d "$made" ]; then
+        mkdir -p "$all"
+        aside=$(mktemp -d "$all/.aside.XXXXXX")
+        exits 0 "$bin/dof-trace" "$1" --size "$2" --spp 4 --halves 32 --reference 256 -o "$aside"
+        exits 0 "$bin/ldi-warp" "$aside/center.exr" "$aside"/view_?.exr -o "$aside/ldi.exr"
+        find "$all" -maxdepth 1 -name "$1-$2-*" ! -path "$made" -exec rm -r {} + # of older tools
+        mv -T "$aside" "$made" 2>/dev/null || rm -rf "$aside" # another script was faster
+    fi
+    mkdir -p "${3:-.}"
+    cp "$made"/*.exr "${3:-.}"
+}
+
 # answers_help TOOL [ARGUMENTS...]: --help and --version work, and an unknown option after the tool's required arguments
 # is a usage error.
 answers_help() {

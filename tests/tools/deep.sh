@@ -3,7 +3,7 @@
 for tool in oiiotool exrheader; do
     command -v $tool >/dev/null || skip "needs $tool (openimageio-tools, openexr)"
 done
-exits 0 "$bin/dof-trace" fence --size 96x54 --spp 1 -o views
+traced fence 96x54 views
 rim=(views/view_0.exr views/view_1.exr views/view_2.exr views/view_3.exr)
 
 same() { cmp -s "$1" "$2" || fail "$1 and $2 differ: $3"; }

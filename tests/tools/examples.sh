@@ -3,25 +3,20 @@
 . "$(dirname "$0")/check.sh"
 export PATH=$bin:$PATH
 
-dof-trace fence --size 160x90 --spp 1 --views 2 -o .
-dof-trace fence --size 160x90 --spp 1 --views 0 --reference 1 -o traced
-cp traced/reference.exr reference.exr
-cp traced/reference.exr another.exr
+traced fence 160x90
+cp reference.exr another.exr
 cp view_0.exr right.exr
 cp view_1.exr left.exr
 cp center.exr beauty.exr
 for view in center view_0 view_1; do cp $view.exr smooth.$view.exr; done
-ldi-warp center.exr view_*.exr -o ldi.exr
 ldi-plan center.exr -o plan.json --views 0 --cameras shot.usda
 ldi-plan --camera shot.usda --views 2 --cameras views.usda
 cp ldi.exr front.exr
 cp ldi.exr back.exr
 cp ldi.exr deep.exr
-dof-trace fence --size 160x90 --views 0 --halves 4 -o .
 dof-gather ldi.exr -o picture.exr
 for frame in 0001 0002 0003; do for name in picture rays_1 rays_2; do cp $name.exr $name.$frame.exr; done; done
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
-rm -r traced
 
 # Tools that take long, do not end, or need a plate have their own scripts.
 elsewhere='^dof-(match|report|view) '

@@ -197,7 +197,7 @@ for wrong in -0.06,0 0.024,0 0.12,0 0,0; do
     exits 0 "$warp" views/center.exr --view $wrong views/view_0.exr -o x.exr
     said "warning: views/view_0.exr: disagrees .* stated position $wrong; it would agree at 0\.0(4[5-9]|[56]|7)[0-9]*,-?0(\.0[01]?[0-9]*)? \(--view .* views/view_0.exr\)\$"
 done
-"$bin/dof-trace" fence --size 96x54 --spp 4 --views 0 -o again
+"$bin/dof-trace" fence --size 96x54 --spp 1 --views 0 -o again
 exits 0 "$warp" views/center.exr --view 0.06,0 again/center.exr -o x.exr
 said 'warning: again/center.exr: disagrees .* stated position 0.06,0; it would agree at 0,0 '
 exits 0 "$warp" views/center.exr --view 0.06,0 views/center.exr -o x.exr
@@ -215,8 +215,9 @@ said 'warning: views/view_0.exr: stands at the edge .*; give the view from the m
 silent() { [ ! -s stderr ] || fail "views in their places are complained of: $* ($(cat stderr))"; }
 exits 0 "$warp" views/center.exr "${rim[@]}" -o x.exr
 silent fence
+traced grass 160x90 grass
 for scene in grass mist lamps mirror slant planes; do
-    "$bin/dof-trace" $scene --size 160x90 --spp 4 -o $scene
+    [ $scene = grass ] || "$bin/dof-trace" $scene --size 160x90 --spp 4 -o $scene
     exits 0 "$warp" $scene/center.exr $scene/view_?.exr -o x.exr
     silent $scene
 done
