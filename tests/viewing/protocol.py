@@ -1,4 +1,5 @@
-"""protocol.py BIN_DIR LDI REFERENCE: the answers of dof-view, its refusals, and its behaviour under load."""
+"""protocol.py BIN_DIR LDI REFERENCE SMALL: the answers of dof-view, its refusals, and its behaviour under load. LDI and
+REFERENCE have 160x90 pixels, the LDI SMALL 96x54."""
 import concurrent.futures
 import contextlib
 import json
@@ -16,7 +17,7 @@ import time
 
 from served import apart, served
 
-program, ldi, reference = sys.argv[1] + "/dof-view", sys.argv[2], sys.argv[3]
+program, (ldi, reference, small) = sys.argv[1] + "/dof-view", sys.argv[2:5]
 ANSWERED = "/facts", "/picture", "/pieces", "/reference", "/plate", "/match", "/rendered", "/objects", "/samples", "/progress", "/commands", "/save"
 
 
@@ -60,15 +61,15 @@ def answers(server):
 def matches_plates(folder):
     """The lens of a plate that was gathered by another lens, in a region; what cannot be matched is said."""
     plate = os.path.join(folder, "plate.exr")
-    truth = ["--lens-radius", "0.11", "--focus-distance", "3"]
-    subprocess.run([sys.argv[1] + "/dof-gather", ldi, *truth, "-o", plate], check=True)
-    with served(program, ldi, "--lens-radius", "0.16", "--plate", plate) as server:
+    truth = ["--lens-radius", "0.11", "--focus-distance", "3", "--quality", "final"]
+    subprocess.run([sys.argv[1] + "/dof-gather", small, *truth, "-o", plate], check=True)
+    with served(program, small, "--lens-radius", "0.16", "--plate", plate) as server:
         assert server.said("/facts")["plate"]
         said, shown = server.picture("/plate")
-        same = server.picture(settings={"lens-radius": "0.11", "focus-distance": "3"})[1]
+        same = server.picture(settings={"lens-radius": "0.11", "focus-distance": "3", "quality": "final"})[1]
         same = [value for i, value in enumerate(same) if i % 4 < 3] # the file's A is 1, rounded
         assert said["channels"] == 3 and max(abs(a - b) for a, b in zip(shown, same, strict=True)) <= 1
-        found = server.said("/match", settings={"lens-radius": "0.05"}, region=[8, 0, 149, 89])
+        found = server.said("/match", settings={"lens-radius": "0.05"}, region=[5, 0, 89, 53])
         assert 2.9 < found["focus_distance"]["value"] < 3.1 and 0.106 < found["lens_radius"]["value"] < 0.114, found
         code, said = server.send("/match", b'{"page": "a", "settings": {}, "region": [0, 0, 9, 9]}')
         assert code != 200 and b"nothing to compare" in said, (code, said)
@@ -257,7 +258,7 @@ def knows_frames(folder):
         assert commands["range"] == [sequence, "--fstop", "3:2,7:6"] and commands["range_output"] == "shot.dof.####.exr", commands
         assert "shot.0007.ldi.exr" in commands["python"], commands
         assert server.said("/commands", settings={"fstop": "8"}, frame=7)["range"] == [sequence, "--fstop", "8"]
-    for limit, held in ((None, 3), ("700KB", 2)):
+    for limit, held in ((None, 3), ("900KB", 2)):
         with served(program, sequence, "--frames", "3,5,7", *(["--max-memory", limit] if limit else [])) as server:
             end = time.monotonic() + 20
             while server.said("/progress", page="any")["held"] < held:
