@@ -5,10 +5,10 @@
 match=$bin/dof-match
 answers_help dof-match ldi.exr plate.exr
 
-exits 0 "$bin/dof-trace" fence --size 160x90 --spp 16 --lens-radius 0.16 -o fence
+exits 0 "$bin/dof-trace" fence --size 96x54 --spp 16 --lens-radius 0.27 -o fence
 exits 0 "$bin/ldi-warp" fence/center.exr fence/view_{0..3}.exr -o ldi.exr
 plate() { # plate NAME FOCUS RADIUS
-    exits 0 "$bin/dof-trace" fence --size 160x90 --views 0 --spp 1 --reference 96 --focus-distance "$2" \
+    exits 0 "$bin/dof-trace" fence --size 96x54 --views 0 --spp 1 --reference 96 --focus-distance "$2" \
         --lens-radius "$3" -o traced
     # Another exposure, a tone curve, JPEG: nothing but blur is compared.
     oiiotool traced/reference.exr --ch R,G,B --mulc 0.6,0.7,0.65 --powc 0.45 --clamp:max=1 -d uint8 \
@@ -19,37 +19,37 @@ plate() { # plate NAME FOCUS RADIUS
 value() { grep -A1 "\"$1\": {" stdout | grep -o '"value": [0-9.]*' | cut -d' ' -f2; }
 holds() { awk "BEGIN { exit !($(value "$1") >= $2 && $(value "$1") <= $3) }" || fail "$1 is $(value "$1"), not $2 to $3"; }
 
-# R F is 25.6 pixels: at 3 units, the perceptive depth is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
-plate plate.exr 3 0.14
+# R F is 25.9 pixels: at 3 units, the perceptive depth is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
+plate plate.exr 3 0.24
 exits 0 "$match" ldi.exr plate.exr --json -o keys.json --show fit.png --stats stats.json
 holds focus_distance 2.8 3.25
-holds lens_radius 0.133 0.147
+holds lens_radius 0.228 0.252
 grep -q '"tool":"dof-match"' stats.json || fail "--stats: $(cat stats.json)"
-oiiotool --info fit.png | grep -q ' 320 x *90,' || fail "--show: $(oiiotool --info fit.png)"
+oiiotool --info fit.png | grep -q ' 192 x *54,' || fail "--show: $(oiiotool --info fit.png)"
 radius=$(value lens_radius)
 
-# One value may be known: the f-stop, here in a region; 0.125 is a radius of 0.144.
-by_region=("$match" ldi.exr plate.exr --json --fit focus --fstop 0.125 --region 5,10,150,75)
+# One value may be known: the f-stop, here in a region; 0.073 is a radius of 0.247.
+by_region=("$match" ldi.exr plate.exr --json --fit focus --fstop 0.073 --region 3,6,90,45)
 exits 0 "${by_region[@]}" -o region.json
 holds focus_distance 2.8 3.25
-holds fstop 0.125 0.125
+holds fstop 0.073 0.073
 
 # ... or the focus, here of another camera: with four times the focal length in pixels, a quarter of the lens blurs as
 # much.
 exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3 --focal-length 72 --sensor-width 18 \
-    --scene-unit 0.1 --lens-radius 0.04
+    --scene-unit 0.1 --lens-radius 0.0675
 holds focus_distance 3 3
-holds lens_radius 0.0332 0.0368
-holds fstop 9.76 10.8
+holds lens_radius 0.0569 0.0631
+holds fstop 5.7 6.3
 
 # From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
 exits 0 "$match" fence/center.exr plate.exr --json
 holds focus_distance 2.8 3.25
-holds lens_radius 0.126 0.147 # one view does not know what is hidden
+holds lens_radius 0.216 0.252 # one view does not know what is hidden
 by_depth() { # by_depth FLAT OPTIONS...: the focus is that of planar depth. The lens radius is known.
-    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.14 "${@:2}"
+    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.24 "${@:2}"
     holds focus_distance "$least" "$most"
-    holds lens_radius 0.14 0.14
+    holds lens_radius 0.24 0.24
 }
 least=2.8 most=3.25 by_depth fence/center.exr
 least=$(awk "BEGIN { print $(value focus_distance) - 0.01 }") most=$(awk "BEGIN { print $(value focus_distance) + 0.01 }")
@@ -77,7 +77,7 @@ fails_saying 2 'keys.json: has no "blades"' "$bin/dof-gather" ldi.exr --frames 1
 
 # A rack of focus; a frame without a plate to match gets its neighbours' values.
 focus_of() { awk "BEGIN { print 2 + 0.4 * $1 }"; }
-for frame in 2 3 4; do plate "rack.000$frame.exr" "$(focus_of $frame)" 0.11; done
+for frame in 2 3 4; do plate "rack.000$frame.exr" "$(focus_of $frame)" 0.18; done
 picture edit rack.0002.exr rack.0001.exr R=0 G=0 B=0
 cp rack.0001.exr rack.0005.exr
 exits 0 "$match" ldi.exr "rack.####.exr" --frames 1-4 -o rack.json
@@ -85,7 +85,7 @@ grep -q '^ *frame  focus distance' stdout || fail "the table: $(cat stdout)"
 [ "$(wc -l <stdout)" -eq 5 ] || fail "a line for each frame of --frames: $(cat stdout)"
 for frame in 2 3 4; do
     awk -v at="$(sed -n "$((frame + 1))p" stdout | awk '{ print $2 }')" -v true="$(focus_of $frame)" \
-        'BEGIN { d = 17.6 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
+        'BEGIN { d = 17.28 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
 done
 grep -q 'warning: rack.0001.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
 
@@ -100,14 +100,14 @@ exits 0 "$bin/dof-gather" lamps.ldi.exr --frames 1 --blades @blades.json --blade
 # Plates that cannot be matched say why.
 picture edit plate.exr black.exr R=0 G=0 B=0
 fails_saying 1 'black.exr: .*shows nothing to compare' "$match" ldi.exr black.exr
-exits 0 "$bin/dof-trace" planes --size 160x90 --views 0 --spp 1 --reference 16 -o other
+exits 0 "$bin/dof-trace" planes --size 96x54 --views 0 --spp 1 --reference 16 -o other
 fails_saying 1 'shows something else than the LDI' "$match" ldi.exr other/reference.exr --fit fstop --focus-distance 3
 oiiotool plate.exr --kernel box 11x1 --convolve -o moved.exr
-fails_saying 1 'blurred by motion' "$match" ldi.exr moved.exr --fit focus --lens-radius 0.14
-plate sharp.exr 4 0.002
+fails_saying 1 'blurred by motion' "$match" ldi.exr moved.exr --fit focus --lens-radius 0.24
+plate sharp.exr 4 0.003
 fails_saying 1 'out of focus' "$match" ldi.exr sharp.exr --fit fstop --focus-distance 4
-oiiotool plate.exr --resize 80x45 -o small.exr
-fails_saying 1 'small.exr: its display window is 80 x 45' "$match" ldi.exr small.exr
+oiiotool plate.exr --resize 48x27 -o small.exr
+fails_saying 1 'small.exr: its display window is 48 x 27' "$match" ldi.exr small.exr
 [ ! -e x.json ] || fail "keys of a plate that cannot be matched"
 
 # Mistakes.
