@@ -1,12 +1,13 @@
 #!/bin/bash
 # The test suite under sanitizers.
 #
-#   tests/sanitizers.sh [--units | --quick] [asan] [tsan]   asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
+#   tests/sanitizers.sh [--units | --quick] [asan] [tsan]   asan: Address- and UndefinedBehaviorSanitizer, with assertions;
+#                                                           tsan: ThreadSanitizer; both
 #
-# Builds in build-asan/ and build-tsan/. Leaves out tests of the sources and of the package, which run nothing for
-# sanitizers to check, and the demo; with --units everything but the unit tests; with --quick, which continuous
-# integration has time for, also those of the laboratory, devices and the slowest, which repeat on large pictures what
-# others do on small ones.
+# Builds in build-clang/ (clang 14) and build-tsan/. Leaves out tests of the sources and of the package, which run
+# nothing for sanitizers to check, and the demo. --units: the unit tests alone. --quick, which continuous integration
+# runs: the unit tests without devices and without the slowest, which repeat on large pictures what others do on small
+# ones, and the scripts that give tools odd windows, layers and files.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -24,7 +25,7 @@ Invariants.FourTimesTheLensPointsAreCloserToTheTruth
 LensLooks.GiveTheSameBitsOnAnyNumberOfThreads
 Cells.ALampKeepsItsDisc'
 
-targets=() without=() tests=(-E '^(scripts|packaging|bench)\.')
+targets=() tests=(-E '^(scripts|packaging|bench)\.')
 case ${1-} in
 --units)
     shift
@@ -32,13 +33,16 @@ case ${1-} in
     ;;
 --quick)
     shift
-    targets=(--target sparselens-tests) tests=(-R '^unit\.') without=(-DSPARSELENS_LAB=OFF -DSPARSELENS_GPU=OFF)
-    export GTEST_FILTER="-$(paste -sd : <<<"$slowest")"
+    targets=(--target sparselens-tests sparselens-pictures dof-trace ldi-plan ldi-warp ldi-cluster dof-gather dof-finish dof-compare)
+    tests=(-R '^(unit\.|fixture\.|tools\.(bad-pixels|denoised|hostile|ldi-warp|layers|windows)$)')
+    export GTEST_FILTER="-*Device*.*:$(paste -sd : <<<"$slowest")"
     ;;
 esac
 [ $# -gt 0 ] || set -- asan tsan
 for sanitizer; do
-    cmake --preset "$sanitizer" --log-level=WARNING "${without[@]}"
-    cmake --build "build-$sanitizer" -j "$(nproc)" "${targets[@]}"
-    ctest --test-dir "build-$sanitizer" --output-on-failure --timeout 10000 -j 2 "${tests[@]}"
+    preset=${sanitizer/asan/clang}
+    [ "$preset" != clang ] || tools/install-deps.sh build test lint
+    cmake --preset "$preset" --log-level=WARNING
+    cmake --build "build-$preset" -j "$(nproc)" "${targets[@]}"
+    ctest --test-dir "build-$preset" --output-on-failure --timeout 10000 -j 2 "${tests[@]}"
 done
