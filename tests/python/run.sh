@@ -10,7 +10,7 @@ for package in pytest numpy; do
     "$python" -c "import $package" 2>/dev/null || skip "$python lacks $package (Debian: python3-$package)"
 done
 
-exits 0 "$bin/dof-trace" fence --size 160x90 --views 4 --spp 4 -o views
+traced fence 96x54 views
 export SPARSELENS_VIEWS=$scratch/views
 "$python" -m pytest -q -p no:cacheprovider "$source_dir/tests/python" --basetemp="$scratch/pytest"
 

@@ -31,7 +31,7 @@ def test_warp_of_deep_pictures():
 def test_views_of_memory(views, clustered):
     view, ldi = views[0], sparselens.open_ldi(clustered)
     picture = sparselens.gather(ldi)
-    assert view.planes.shape == (4, 90, 160) and view.pixels.shape == picture.pixels.shape == (90, 160, 4)
+    assert view.planes.shape == (4, 54, 96) and view.pixels.shape == picture.pixels.shape == (54, 96, 4)
     for arrays in [(view.planes, view.pixels), (view.z, view.z), (ldi.begin, ldi.begin), (ldi["R"], ldi["R"]),
                    (picture.planes, picture.pixels), (picture.planes[2], picture["B"])]:
         assert numpy.shares_memory(*arrays)

@@ -34,7 +34,7 @@ def test_an_ldi_and_its_file(clustered):
     with sparselens.view(ldi) as of_ldi, sparselens.view(clustered, fstop=0.4, tilt=(3, 0), cat_eye_darkening=True, cat_eye=None) as of_file:
         assert of_ldi.address != of_file.address and of_ldi.address in repr(of_ldi) and of_ldi.address in of_ldi._repr_html_()
         facts = json.loads(ask(of_ldi, "/facts"))
-        assert (facts["width"], facts["height"]) == (160, 90)
+        assert (facts["width"], facts["height"]) == (96, 54)
         said, pixels = picture(of_ldi, fstop="0.4", tilt="3,0")
         other, of_options = picture(of_file)
         assert (said["lens"], pixels) == (other["lens"], of_options) and said["lens"]["fstop"] == 0.4
