@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "finish/frames_around.h"
+#include "finish/tuning.h"
 
 #include <fmt/format.h>
 
@@ -57,17 +58,15 @@ void check_window(const Render &render, const Windows &windows) {
 }
 
 // Whether two renders have the same noise. Pixels that equal their neighbour do not tell, because they may have none; of
-// the others, those in focus and without textures may be equal in two honest renders.
+// the others, those in focus may be equal in two honest renders.
 bool have_same_noise(std::span<const half> a, std::span<const half> b) {
-    constexpr std::size_t all_but =
-        10; // one in ten may differ: in files of another compression, or made by another GPU
     std::size_t told = 0, differ = 0;
     for (std::size_t i = 1; i < a.size(); ++i) {
         if (a[i] == a[i - 1]) continue;
         ++told;
         differ += a[i] != b[i];
     }
-    return told > 0 && differ * all_but < told;
+    return told > 0 && double(differ) < FinishTuning::different_noise * double(told);
 }
 
 // Leaves only finite values: where a render has none, the gathered value; where the gathered picture has none either,

@@ -41,6 +41,10 @@ struct FinishTuning {
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
+    // Two renders have the same noise unless this share of the pixels that light varies in differs: files of another
+    // compression, or of another GPU, differ a little.
+    static constexpr double different_noise = 0.1;
+
     // Side, in pixels, of the blocks that count by how well a mistake explains them; and the number of fits.
     static constexpr int mistake_block_px = 16, mistake_passes = 8;
     // A mistake is reported if it explains this share of the difference of both renders from the gathered picture, ...

@@ -269,7 +269,7 @@ TEST(TakeMoments, OneIsTheStill) {
 // The moments of a scene that stands still look through all lens points of a still, each through its share. So do those
 // that a row of a rolling shutter sees, if its exposure is a whole number of moments long.
 TEST(TakeMoments, OfAStillSceneAreTheStill) {
-    const OpenedLdi in = opened(random_surfaces(windows_of_size(96, 64), lens, false, 3));
+    const OpenedLdi in = opened(random_surfaces(windows_of_size(64, 48), lens, false, 3));
     const Image still = taken({in}).image;
     for (const auto &[count, duration] :
          {std::pair{2u, 1.0}, {4u, 1.0}, {8u, 1.0}, {4u, 0.5}, {4u, 0.25}, {8u, 0.25}}) {

@@ -13,7 +13,7 @@
 namespace sparselens {
 namespace {
 
-constexpr int width = 24, height = 500, lamps_apart = 37;
+constexpr int width = 16, height = 500, lamps_apart = 37;
 
 PackedRows packed(const Ldi &ldi) {
     PackedRows rows(ldi.windows);
@@ -182,10 +182,11 @@ TEST_F(GatherRows, LayersAreMergedAsTheyAreAtOnce) {
 
 // Wide enough that in cells some lens points look farther beyond the frame at one layer than at the merged ones.
 TEST_F(GatherRows, LayersAreMergedAtOnceAsTheyAreWhileTheyAreRead) {
+    constexpr int wide = 24;
     const auto dense = std::ranges::find(deep_scenes(), std::string_view("dense"), &DeepScene::name);
-    ldi = dense->make(width, 300);
+    ldi = dense->make(wide, 300);
     window = ldi.windows.data;
-    lens = {.radius = 6, .focal_px = width * 50 / 36.0, .focus = 1.3};
+    lens = {.radius = 6, .focal_px = wide * 50 / 36.0, .focus = 1.3};
     const Image at_once = gather_picture(ldi, lens, window, window, options, progress);
     PictureOptions merged = options;
     merged.layer_tolerance = 0;

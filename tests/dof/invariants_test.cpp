@@ -116,7 +116,7 @@ TEST(Invariants, OrderOfViewsDoesNotMatter) {
 }
 
 TEST(Invariants, ThreadsDoNotMatter) {
-    const Ldi ldi = random_picture(2, 200, 150);
+    const Ldi ldi = random_picture(2, 140, 100);
     const auto with = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return gather(ldi).values;
@@ -196,15 +196,13 @@ TEST(Invariants, AMirroredPictureIsMirrored) {
 // Lamps gain less, because each pixel of a disc asks one lens point whether it sees the lamp, for any number of lens
 // points.
 TEST(Invariants, FourTimesTheLensPointsAreCloserToTheTruth) {
-    for (const std::uint32_t seed : {5u, 6u, 7u}) {
-        const Ldi ldi = without_colour(random_picture(seed, 64, 48));
-        const Image truth = gather(ldi, 16384);
-        double last = rms_difference(gather(ldi, 16), truth);
-        for (const int points : {64, 256, 1024}) {
-            const double now = rms_difference(gather(ldi, points), truth);
-            EXPECT_LT(now, 0.7 * last) << seed << ", " << points;
-            last = now;
-        }
+    const Ldi ldi = without_colour(random_picture(5, 64, 60)); // nearly a tile
+    const Image truth = gather(ldi, 16384);
+    double last = rms_difference(gather(ldi, 16), truth);
+    for (const int points : {64, 256, 1024}) {
+        const double now = rms_difference(gather(ldi, points), truth);
+        EXPECT_LT(now, 0.7 * last) << points;
+        last = now;
     }
 }
 

@@ -68,7 +68,7 @@ TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
 // Far out of focus on both sides of it, except for a corner.
 TEST_F(LensDeviceTest, CellsAreTheCpus) {
     const ThinLens wide{.radius = 0.6, .focal_px = 640, .focus = 5};
-    const Ldi ldi = make_ldi(windows_of_size(140, 70), rgba_channels(), [&](int x, int y) {
+    const Ldi ldi = make_ldi(windows_of_size(140, 60), rgba_channels(), [&](int x, int y) {
         const auto random = [&](std::uint32_t n) { return float(random_unit(x / 2, y / 2, n)); };
         std::vector<Sample> samples;
         if (x + y < 100) samples.push_back({depth_of(wide, -45), {random(1), random(2), random(3), 1}});
@@ -82,7 +82,7 @@ TEST_F(LensDeviceTest, CellsAreTheCpus) {
 TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
     ThinLens high = lens;
     high.pixel_aspect = 2;
-    Windows windows = windows_of_size(80, 70);
+    Windows windows = windows_of_size(70, 60);
     windows.pixel_aspect = 2;
     const Ldi ldi = make_ldi(windows, {{"Y"}}, [&](int x, int y) {
         return std::vector<Sample>{{depth_of(high, 0.4), {float(random_unit(x, y, 7))}}};
@@ -91,10 +91,10 @@ TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
 }
 
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
-    expect_same(random_surfaces(windows_of_size(90, 70), lens, false, 6), {.lens_samples = 12});
+    expect_same(random_surfaces(windows_of_size(90, 60), lens, false, 6), {.lens_samples = 8});
     // In a picture of one view, some fillers cast shadows on highlights. The device must not draw these fillers.
-    expect_same(random_surfaces(windows_of_size(90, 70), lens, true, 6),
-                {.lens_samples = 12, .one_view = true});
+    expect_same(random_surfaces(windows_of_size(90, 60), lens, true, 6),
+                {.lens_samples = 8, .one_view = true});
 }
 
 TEST_F(LensDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
@@ -121,7 +121,7 @@ TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
         {.chromatic_coc = {1.5, 0, -1.5}},
     };
     for (const LensLooks &looks : shapes)
-        expect_same(surfaces(80, 70, false, 3), {.lens_samples = 12, .looks = looks});
+        expect_same(surfaces(80, 60, false, 3), {.lens_samples = 4, .looks = looks});
 }
 
 TEST_F(LensDeviceTest, LensPointsThatWeighDifferentlyAreTheCpus) {
@@ -132,16 +132,16 @@ TEST_F(LensDeviceTest, LensPointsThatWeighDifferentlyAreTheCpus) {
         std::make_shared<AperturePicture>(AperturePicture{2, 1, {1, 0.2f, 0, 0.3f, 1, 1}});
     for (const LensLooks &looks : {sides, colours, coloured_sides})
         for (const bool opaque : {true, false})
-            expect_same(surfaces(80, 70, opaque, 9), {.lens_samples = 8, .looks = looks});
+            expect_same(surfaces(80, 60, opaque, 9), {.lens_samples = 6, .looks = looks});
 }
 
 TEST_F(LensDeviceTest, PixelsThatSeeThroughSomeLensPointsAreTheCpus) {
     LensLooks looks;
     looks.cat_eye = 0.9;
-    const Ldi ldi = surfaces(90, 70, false, 10);
+    const Ldi ldi = surfaces(90, 60, false, 10);
     for (const bool darkening : {false, true}) {
         looks.cat_eye_darkening = darkening;
-        expect_same(ldi, {.lens_samples = 12, .looks = looks});
+        expect_same(ldi, {.lens_samples = 8, .looks = looks});
     }
     looks.aperture.spherical = -0.5;
     expect_same(ldi, {.lens_samples = 8, .looks = looks});
@@ -150,7 +150,7 @@ TEST_F(LensDeviceTest, PixelsThatSeeThroughSomeLensPointsAreTheCpus) {
 // Half of the surfaces show images at other depths.
 TEST_F(LensDeviceTest, MirrorsAndGlassAreTheCpus) {
     for (const bool opaque : {true, false}) {
-        Ldi ldi = surfaces(90, 70, opaque, 11);
+        Ldi ldi = surfaces(90, 60, opaque, 11);
         for (std::size_t i = 0; i < ldi.z.size(); ++i)
             ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 0, 12) < 0.5 ? 1 : 1.7f));
         expect_same(ldi, {.lens_samples = 8});
@@ -168,7 +168,7 @@ void add_solids(Ldi &ldi) {
 
 TEST_F(LensDeviceTest, WhatIsSolidIsTheCpus) {
     for (const bool opaque : {true, false}) {
-        Ldi ldi = surfaces(90, 70, opaque, 17);
+        Ldi ldi = surfaces(90, 60, opaque, 17);
         add_solids(ldi);
         expect_same(ldi, {.lens_samples = 8});
         LensLooks looks;
@@ -182,10 +182,10 @@ TEST_F(LensDeviceTest, WhatIsSolidIsTheCpus) {
 }
 
 TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
-    Ldi ldi = surfaces(150, 200, false, 4);
+    Ldi ldi = surfaces(150, 120, false, 4);
     add_solids(ldi);
     Watch small = watch();
-    small.largest_buffer = 1 << 21;
+    small.largest_buffer = 1 << 20;
     device = open_gather_device(*info, small);
     expect_same(ldi, {.lens_samples = 8});
     small.largest_buffer = 1 << 12;
@@ -199,9 +199,9 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
 
 // Depths are looked up in single precision; equal depths of the holdout stay equal.
 TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
-    const Ldi ldi = surfaces(90, 70, false, 12);
-    Ldi volumes = surfaces(50, 70, false, 13);
-    volumes.windows.data = {{20, 10}, {69, 79}};
+    const Ldi ldi = surfaces(90, 60, false, 12);
+    Ldi volumes = surfaces(50, 50, false, 13);
+    volumes.windows.data = {{20, 10}, {69, 59}};
     for (const float z : volumes.z) volumes.z_back.push_back(z * 1.2f);
     LensLooks looks;
     looks.aperture.spherical = 0.5;
@@ -221,8 +221,8 @@ TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
     for (const double turns : {8000.0, 3000.0}) {
         few.most_turns = turns;
         device = open_gather_device(*info, few);
-        expect_same(surfaces(90, 70, false, 14), {.lens_samples = 9});
-        expect_same(surfaces(70, 70, false, 14), {.lens_samples = 9, .looks = looks});
+        expect_same(surfaces(90, 60, false, 14), {.lens_samples = 9});
+        expect_same(surfaces(70, 60, false, 14), {.lens_samples = 9, .looks = looks});
     }
     few.most_turns = 99;
     device = open_gather_device(*info, few);
@@ -237,10 +237,10 @@ TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
 // Unchanged data stays on the device: the positions, depths, coverages and most colours of these frames.
 TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
     // A third of it is nearly in focus, where each frame sharpens different colours.
-    Ldi ldi = make_ldi(windows_of_size(150, 90), {{"Y"}, {"A"}}, [](int x, int y) {
+    Ldi ldi = make_ldi(windows_of_size(150, 60), {{"Y"}, {"A"}}, [](int x, int y) {
         const auto y_of = [&](std::uint32_t stream) { return float(random_unit(x, y, stream)); };
         const Sample wall{x < 100 ? 9.0f : 5.0f, {y_of(1), 1}}, veil{3, {y_of(2) / 3, 0.4f}};
-        return y < 45 ? std::vector<Sample>{veil, wall} : std::vector<Sample>{wall};
+        return y < 30 ? std::vector<Sample>{veil, wall} : std::vector<Sample>{wall};
     });
     device = open_gather_device(*info, watch());
     std::vector<std::size_t> uploaded;
@@ -263,7 +263,7 @@ TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
     for (std::vector<float> &values : ldi.values)
         std::ranges::reverse(values); // another picture of the same size
     frame(4.6, ldi);
-    frame(4.6, surfaces(90, 150, true, 16));
+    frame(4.6, surfaces(60, 150, true, 16));
     EXPECT_LT(2 * uploaded[1], uploaded[0]);
     EXPECT_LT(2 * uploaded[2], uploaded[0]);
     EXPECT_EQ(uploaded[3], 0u); // nothing has changed
@@ -272,7 +272,7 @@ TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
 
 // Failures at each of its steps: memory, copies, the run.
 TEST_F(LensDeviceTest, AFailureLosesNothing) {
-    const Ldi ldi = surfaces(90, 70, false, 8);
+    const Ldi ldi = surfaces(60, 40, false, 8);
     const Image expected = gather(ldi, {.lens_samples = 8});
     int steps = 0, fail_at = 0, result = 0;
     Watch failing = watch();

@@ -56,7 +56,7 @@ protected:
 TEST_F(SelectiveDeviceTest, SurfacesAreTheCpusWithAnyNumberOfLayers) {
     for (const bool opaque : {true, false})
         for (const int layers : {1, 3, 100})
-            expect_same(random_surfaces(windows_of_size(45, 40), lens, opaque, 1), lens, layers);
+            expect_same(random_surfaces(windows_of_size(45, 30), lens, opaque, 1), lens, layers);
 }
 
 TEST_F(SelectiveDeviceTest, WindowsAndPixelsOfAnyShapeAreTheCpus) {
@@ -73,7 +73,7 @@ TEST_F(SelectiveDeviceTest, WindowsAndPixelsOfAnyShapeAreTheCpus) {
 TEST_F(SelectiveDeviceTest, DiscsOfAnySizeAreTheCpus) {
     const ThinLens wide{.radius = 6, .focal_px = 640, .focus = 5};
     for (const double c : {-1e-3, -0.4, -2.6, -60.0, -1000.0, -9000.0}) {
-        const Ldi ldi = make_ldi(windows_of_size(60, 40), rgba_channels(), [&](int x, int y) {
+        const Ldi ldi = make_ldi(windows_of_size(60, 30), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples{
                 {5 + 0.01 * random_unit(x, y, 1), {float(random_unit(x, y, 2)), 0.5f, 0.2f, 1}}};
             if (x % 20 == 11 && y > 7)

@@ -49,7 +49,7 @@ protected:
 // Pixels where the views disagree, where they are apart, and where pixels become two samples.
 TEST_F(WarpDeviceTest, RandomViewsAreTheCpus) {
     for (const int count : {1, 2, 5, 9}) {
-        const std::vector<View> views = random_views(windows_of_size(70, 50), count);
+        const std::vector<View> views = random_views(windows_of_size(50, 36), count);
         WarpOptions split = averaging, assumed = averaging;
         split.split_silhouettes = true;
         split.focus = 5;
@@ -113,7 +113,7 @@ TEST_F(WarpDeviceTest, ManySamplesOfAPixelAreTheCpus) {
 // So near that 1 / z overflows its precise range, and so far that it vanishes. If a depth or 1 / z is denormal, which
 // devices may take for 0, the CPU does everything.
 TEST_F(WarpDeviceTest, ExtremeDepthsAreTheCpus) {
-    std::vector<View> views = random_views(windows_of_size(50, 40), 4);
+    std::vector<View> views = random_views(windows_of_size(36, 28), 4);
     const float depths[] = {1e-37f, 1e-9f, 0.5f, 3, 1e10f, 8e37f, inf};
     std::uint32_t i = 0;
     for (View &view : views)
@@ -129,7 +129,7 @@ TEST_F(WarpDeviceTest, ExtremeDepthsAreTheCpus) {
 
 // Negative colours, and colours brighter than any light.
 TEST_F(WarpDeviceTest, ExtremeColoursAreTheCpus) {
-    std::vector<View> views = random_views(windows_of_size(50, 40), 4);
+    std::vector<View> views = random_views(windows_of_size(36, 28), 4);
     const float colours[] = {0, -1, 1e-30f, 1, 65504, 3e38f};
     std::uint32_t i = 0;
     for (View &view : views)
@@ -177,7 +177,7 @@ TEST_F(WarpDeviceTest, StripesMakeTheSameSamples) {
 
 // Failures at each of its steps: memory, copies, runs.
 TEST_F(WarpDeviceTest, AFailureLosesNothing) {
-    const std::vector<View> views = random_views(windows_of_size(70, 50), 3);
+    const std::vector<View> views = random_views(windows_of_size(36, 24), 3);
     const Ldi expected = warped(views);
     int steps = 0, fail_at = 0, result = 0;
     Watch failing = watch();

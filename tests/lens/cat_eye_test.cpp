@@ -96,7 +96,7 @@ TEST(CatEye, ColumnsAreThePixelsThatSeeALensPoint) {
 }
 
 TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
-    const Windows windows = window(64, 48);
+    const Windows windows = window(32, 24);
     const auto grey =
         std::make_shared<AperturePicture>(AperturePicture{2, 2, {1, 1, 1, 3, 3, 3, 1, 1, 1, 1, 1, 1}});
     for (const ApertureShape &shape : {ApertureShape{.blades = 6, .rotation = 10}, ApertureShape{.blades = 3},

@@ -42,8 +42,7 @@ TEST(FitBlocks, a_grade_hardly_counts) {
 TEST(FitBlocks, a_trace_of_colour_explains_nothing) {
     const auto squares = [](double x, double y) { return std::fmod(x + y, 2) == 0 ? 1.0 : -1.0; };
     const auto grey = [](double x, double y) { return 0.5 + 0.1 * std::sin(0.4 * x) * std::cos(0.3 * y); };
-    const Rgb change =
-        test::colours(16, 16, [&](double x, double y, std::size_t) { return squares(x, y); });
+    const Rgb change = test::colours(16, 16, [&](double x, double y, std::size_t) { return squares(x, y); });
     const Rgb shown = test::colours(16, 16, [&](double x, double y, std::size_t k) {
         return grey(x, y) + (k == 0 ? 5e-4 : -2.5e-4) * squares(x, y);
     });

@@ -25,7 +25,7 @@ LensFit found(const Comparison &pictures, const KnownLens &known) {
 
 TEST(LensSearch, finds_the_focus_and_the_lens_of_a_graded_plate) {
     for (const auto &[coc, scale] : {std::pair{0.0, 0.6}, {2.0, 0.8}, {-1.5, 0.4}}) {
-        const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, coc, scale)));
+        const Comparison pictures = test::slope_before(graded(test::blurred_waves(96, 48, coc, scale)));
         const LensFit fit = found(pictures, {});
         EXPECT_NEAR(fit.guess.coc, coc, 0.1);
         EXPECT_NEAR(fit.guess.scale, scale, 0.02);
@@ -33,14 +33,14 @@ TEST(LensSearch, finds_the_focus_and_the_lens_of_a_graded_plate) {
 }
 
 TEST(LensSearch, tells_softness_of_the_whole_from_the_lens) {
-    const Rgb soft = softened(test::blurred_waves(128, 64, 1, 0.7), 0.8);
+    const Rgb soft = softened(test::blurred_waves(96, 48, 1, 0.7), 0.8);
     const LensFit fit = found(test::slope_before(graded(soft)), {});
     EXPECT_NEAR(fit.guess.softness, 0.8, 0.15);
     EXPECT_NEAR(fit.guess.scale, 0.7, 0.03);
 }
 
 TEST(LensSearch, keeps_what_is_known) {
-    const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1.4, 0.7)));
+    const Comparison pictures = test::slope_before(graded(test::blurred_waves(96, 48, 1.4, 0.7)));
     const LensFit by_scale = found(pictures, {.scale = 0.7});
     EXPECT_EQ(by_scale.guess.scale, 0.7);
     EXPECT_NEAR(by_scale.guess.coc, 1.4, 0.1);
@@ -51,7 +51,7 @@ TEST(LensSearch, keeps_what_is_known) {
 
 // The covariance comes from the spread between blocks, so noise widens it.
 TEST(LensSearch, noise_widens_the_spread) {
-    Rgb noisy = graded(test::blurred_waves(128, 64, 1, 0.7));
+    Rgb noisy = graded(test::blurred_waves(96, 48, 1, 0.7));
     const LensFit before = found(test::slope_before(noisy), {});
     std::uint32_t state = 1;
     for (std::vector<float> &plane : noisy.rgb)
@@ -81,7 +81,7 @@ Comparison noisy_slope_before(const Rgb &plate, float amount) {
 }
 
 TEST(LensSearch, noise_of_gathered_pictures_does_not_stop_the_search) {
-    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(96, 48, 1, 0.7)), 0.02f);
     const LensFit fit = refine_lens(pictures, {}, {3.5, 1.1, 0.3}, 40, 0.75);
     EXPECT_NEAR(fit.guess.coc, 1, 0.1);
     EXPECT_NEAR(fit.guess.scale, 0.7, 0.05); // the noise passes for softness
@@ -89,14 +89,14 @@ TEST(LensSearch, noise_of_gathered_pictures_does_not_stop_the_search) {
 }
 
 TEST(LensSearch, ends_at_the_best_lens) {
-    const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)));
+    const Comparison pictures = test::slope_before(graded(test::blurred_waves(96, 48, 1, 0.7)));
     const LensFit fit = refine_lens(pictures, {}, {2, 0.5, 0.3}, 40, 0.75);
     EXPECT_NEAR(fit.guess.coc, 1, 0.03);
     EXPECT_NEAR(fit.guess.scale, 0.7, 0.01);
 }
 
 TEST(LensSearch, compares_no_more_lenses_than_it_may) {
-    Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)));
+    Comparison pictures = test::slope_before(graded(test::blurred_waves(96, 48, 1, 0.7)));
     int count = 0;
     pictures.gather = [&count, gather = pictures.gather](double coc, double scale, bool exactly) {
         ++count;
@@ -108,7 +108,7 @@ TEST(LensSearch, compares_no_more_lenses_than_it_may) {
 
 // At a known focus beyond all depths, the CoC changes everywhere with the radius.
 TEST(LensSearch, a_known_focus_makes_the_radius_more_certain) {
-    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 4, 0.4)), 0.02f);
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(96, 48, 4, 0.4)), 0.02f);
     const BlurGuess guess{4, 0.4, 0.15};
     const LensFit free = measured_lens(pictures, {}, guess, 8, 0.3),
                   known = measured_lens(pictures, {.focus = pictures.middle + 10}, guess, 8, 0.3);
@@ -116,7 +116,7 @@ TEST(LensSearch, a_known_focus_makes_the_radius_more_certain) {
 }
 
 TEST(LensSearch, the_interval_is_as_wide_as_other_lenses_fit) {
-    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)), 0.02f);
+    const Comparison pictures = noisy_slope_before(graded(test::blurred_waves(96, 48, 1, 0.7)), 0.02f);
     const LensFit narrow = measured_lens(pictures, {}, {1, 0.7, 0.15}, 8, 0.75),
                   wide = widened(pictures, {}, narrow);
     EXPECT_GT(wide.covariance.coc, 2 * narrow.covariance.coc);
@@ -127,7 +127,7 @@ TEST(LensSearch, the_interval_is_as_wide_as_other_lenses_fit) {
 }
 
 TEST(LensSearch, goes_to_a_better_lens_beside) {
-    const Comparison pictures = test::slope_before(graded(test::blurred_waves(128, 64, 1, 0.7)));
+    const Comparison pictures = test::slope_before(graded(test::blurred_waves(96, 48, 1, 0.7)));
     const LensFit wrong = measured_lens(pictures, {}, {3.5, 1.1, 0.3}, 6, 0.75);
     EXPECT_GT(std::abs(wrong.guess.coc - 1), 0.5);
     EXPECT_NEAR(widened(pictures, {}, wrong).guess.coc, 1, 0.1);

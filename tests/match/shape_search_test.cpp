@@ -12,7 +12,7 @@
 namespace sparselens {
 namespace {
 
-constexpr int width = 160, height = 112;
+constexpr int width = 112, height = 80;
 
 // Whether an aperture passes the light at this point; x right, y up, in radii of the f-number's circle.
 bool passes(const ApertureShape &shape, double x, double y) {
@@ -29,8 +29,8 @@ bool passes(const ApertureShape &shape, double x, double y) {
 struct Lamp {
     double x, y, depth; // perceptive
 };
-constexpr std::array all_lamps{Lamp{24.3, 22.7, 4}, Lamp{70.1, 30.2, 2}, Lamp{121.6, 25.5, 3},
-                               Lamp{40.8, 80.4, 3}, Lamp{97.2, 84.9, 4}, Lamp{137, 70, 2}};
+constexpr std::array all_lamps{Lamp{19.3, 18.7, 4}, Lamp{56.1, 22.2, 2}, Lamp{92.6, 19.5, 3},
+                               Lamp{20.8, 58.4, 3}, Lamp{57.2, 61.9, 4}, Lamp{91, 60, 2}};
 
 // Lamps behind the focus, each of the same light, before a grey ground.
 Rgb lamps(const ApertureShape &shape, double coc, double scale) {

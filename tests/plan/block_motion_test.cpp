@@ -47,11 +47,11 @@ TEST(BlockMotion, FindsAShiftedTexture) {
 
 // A large picture is searched at a third of its size.
 TEST(BlockMotion, FindsLongMotionInLargePictures) {
-    const View first = view_of(1440, 300, [](int x, int y) { return Shown{cloth(x / 3.0, y / 3.0)}; });
+    const View first = view_of(1440, 168, [](int x, int y) { return Shown{cloth(x / 3.0, y / 3.0)}; });
     const View second =
-        view_of(1440, 300, [](int x, int y) { return Shown{cloth((x - 100) / 3.0, y / 3.0)}; });
+        view_of(1440, 168, [](int x, int y) { return Shown{cloth((x - 100) / 3.0, y / 3.0)}; });
     const auto motions = block_motions(first, second, nothing);
-    EXPECT_GE(motions.size(), 500u);
+    EXPECT_GE(motions.size(), 280u);
     for (const BlockMotion &block : motions) {
         EXPECT_NEAR(block.motion.x, 100, 3);
         EXPECT_NEAR(block.motion.y, 0, 3);

@@ -157,17 +157,17 @@ exits 0 "$gather" ldi.exr -o wide.exr --lens-radius 0.09
 grep -q '^dof-gather: warning: the aperture is larger' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"
 
 # --focus-pixel uses the depth of the front sample there.
-exits 0 "$gather" ldi.exr -o pixel.exr --focus-pixel 1,0 --depth-out depth.exr
+exits 0 "$gather" ldi.exr -o pixel.exr --focus-pixel 5,0 --depth-out depth.exr
 exits 0 "$gather" ldi.exr -o distance.exr --focus-distance 18
 same pixel.exr distance.exr "--focus-pixel on the wall"
 differ pixel.exr out.exr "--focus-pixel"
 fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel 1000,1000
 fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel -1000,-1
-fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 1,0 --focus-distance 3
+fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 5,0 --focus-distance 3
 
 # -v prints that distance.
-exits 0 "$gather" ldi.exr -o x.exr --focus-pixel 1,0 -v
-grep -qx 'dof-gather: the focus distance is 18, the depth of pixel 1,0' stderr || fail "-v does not say the distance: $(cat stderr)"
+exits 0 "$gather" ldi.exr -o x.exr --focus-pixel 5,0 -v
+grep -qx 'dof-gather: the focus distance is 18, the depth of pixel 5,0' stderr || fail "-v does not say the distance: $(cat stderr)"
 
 # --depth-out: the depth of the front, as float.
 exits 0 "$gather" keep.exr -o x.exr --depth-out depth.exr

@@ -163,7 +163,7 @@ TEST(Cells, AreAsLargeAsTheBlurAllows) {
 TEST(Cells, ThePictureIsThatOfManyLensPoints) {
     for (const auto &[wall, card] :
          {std::pair(70.0, -65.0), std::pair(70.0, 40.0), std::pair(-40.0, -60.0)}) {
-        Scene scene(wall, card);
+        Scene scene(wall, card, 1, side / 2, side / 2);
         const Image truth = scene.gather({.lens_samples = 1024});
         const Image cells = scene.gather({}), pixels = scene.gather({.lens_samples = 256});
         EXPECT_LT(rms(cells, truth), rms(pixels, truth)) << wall << " " << card;
@@ -174,7 +174,7 @@ TEST(Cells, ThePictureIsThatOfManyLensPoints) {
 // 40 objects, more than are gathered at once, in stripes on the card and the wall. The lens sees part of each pixel's
 // light in all of them together.
 TEST(Cells, CoveragesOfObjectsAddUpToAll) {
-    Scene scene;
+    Scene scene(70, -66, 1, side / 2, side / 2);
     scene.ldi = with_objects(std::move(scene.ldi), 40);
     ASSERT_GT(scene.cell_size({}), 1);
     const Image picture = gather_mattes(scene.ldi, lens, scene.ldi.windows.data, {.looks = {}}, scene.silent);

@@ -188,7 +188,7 @@ Ldi shape_over_nothing(const Windows &windows, const ThinLens &by, const Inside 
     });
 }
 
-constexpr int side = 160 + 2 * 33; // no lens point looks past the border
+constexpr int side = 80 + 2 * 17; // no lens point looks past the border
 
 // The largest difference from the shape convolved with the disc of the lens, averaged over the pixel: along a row, a
 // column and the diagonal.
@@ -214,17 +214,17 @@ double off_from_convolution(const Inside &inside, double c, const ThinLens &by) 
     return worst;
 }
 
-const ThinLens strong{.radius = 0.3, .focal_px = 640, .focus = 6}; // CoC up to 32 px behind focus
+const ThinLens strong{.radius = 0.15, .focal_px = 640, .focus = 6}; // CoC up to 16 px behind focus
 
 TEST(Fillers, ShapesOverNothingAreConvolvedWithTheLens) {
     constexpr double middle = side / 2;
     const auto radius = [](double x, double y) { return std::hypot(x - middle, y - middle); };
-    const Inside disc = [&](double x, double y) { return radius(x, y) < 40; };
-    const Inside ring = [&](double x, double y) { return radius(x, y) < 45 && radius(x, y) > 25; };
+    const Inside disc = [&](double x, double y) { return radius(x, y) < 20; };
+    const Inside ring = [&](double x, double y) { return radius(x, y) < 23 && radius(x, y) > 13; };
     const Inside square = [](double x, double y) {
-        return std::max(std::abs(x - middle - 0.3), std::abs(y - middle - 0.3)) < 32;
+        return std::max(std::abs(x - middle - 0.3), std::abs(y - middle - 0.3)) < 16;
     };
-    for (const double c : {-30.0, -6.9, -3.0, 3.0, 30.0})
+    for (const double c : {-15.0, -6.9, -3.0, 3.0, 15.0})
         EXPECT_LT(off_from_convolution(disc, c, strong), 0.02) << c;
     for (const double c : {-14.0, 6.9}) {
         EXPECT_LT(off_from_convolution(ring, c, strong), 0.02) << c;

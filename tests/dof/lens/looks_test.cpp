@@ -70,14 +70,14 @@ TEST(LensLooks, ConstantStaysConstantAndOpaque) {
 }
 
 TEST(LensLooks, ChangeThePicture) {
-    const Ldi ldi = random_surfaces(windows_of_size(96, 64), lens, false, 1);
+    const Ldi ldi = random_surfaces(windows_of_size(64, 48), lens, false, 1);
     const Image round = gather(ldi, {});
     for (const LensLooks &looks : all_looks()) EXPECT_GT(largest_difference(gather(ldi, looks), round), 0.01);
     EXPECT_EQ(largest_difference(gather(ldi, {.aperture = {.blades = 4, .curvature = 1}}), round), 0);
 }
 
 TEST(LensLooks, GiveTheSameBitsOnAnyNumberOfThreads) {
-    const Ldi ldi = random_surfaces(windows_of_size(70, 66), lens, false, 2); // four tiles
+    const Ldi ldi = random_surfaces(windows_of_size(140, 16), lens, false, 2); // three tiles
     std::vector<LensLooks> all = all_looks();
     all.push_back({.aperture = {.spherical = 0.5}, .cat_eye = 1, .cat_eye_darkening = true});
     for (const LensLooks &looks : all) {
@@ -331,7 +331,7 @@ TEST(LensLooks, DarkenWhatACatEyeCuts) {
 }
 
 TEST(LensLooks, LeaveAPinholeItsLight) {
-    const Ldi ldi = random_surfaces(windows_of_size(96, 64), lens, false, 1);
+    const Ldi ldi = random_surfaces(windows_of_size(64, 48), lens, false, 1);
     const ThinLens pinhole{.radius = 0, .focal_px = 640, .focus = 5};
     const Image dark = gather(ldi, {.cat_eye = 1, .cat_eye_darkening = true, .magnification = 1.1}, pinhole);
     EXPECT_EQ(dark.values, gather(ldi, {.magnification = 1.1}, pinhole).values);
