@@ -1,6 +1,7 @@
 #!/bin/bash
 # dof-match from the shell: the hidden lens of ray-traced plates, the keys that dof-gather reads, the effect of each
 # option, and plates that cannot be matched.
+#   bash dof-match.sh BIN_DIR [--all]     without --all (tools.dof-match-all), one plate, no flat pictures, rack or shape
 . "$(dirname "$0")/check.sh"
 match=$bin/dof-match
 answers_help dof-match ldi.exr plate.exr
@@ -34,32 +35,34 @@ exits 0 "${by_region[@]}" -o region.json
 holds focus_distance 2.8 3.25
 holds fstop 0.073 0.073
 
-# ... or the focus, here of another camera: with four times the focal length in pixels, a quarter of the lens blurs as
-# much.
-exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3 --focal-length 72 --sensor-width 18 \
-    --scene-unit 0.1 --lens-radius 0.0675
-holds focus_distance 3 3
-holds lens_radius 0.0569 0.0631
-holds fstop 5.7 6.3
+if [ "${2:-}" = --all ]; then
+    # ... or the focus, here of another camera: with four times the focal length in pixels, a quarter of the lens blurs as
+    # much.
+    exits 0 "$match" ldi.exr plate.exr --json --fit fstop --focus-distance 3 --focal-length 72 --sensor-width 18 \
+        --scene-unit 0.1 --lens-radius 0.0675
+    holds focus_distance 3 3
+    holds lens_radius 0.0569 0.0631
+    holds fstop 5.7 6.3
 
-# From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
-exits 0 "$match" fence/center.exr plate.exr --json
-holds focus_distance 2.8 3.25
-holds lens_radius 0.216 0.252 # one view does not know what is hidden
-by_depth() { # by_depth FLAT OPTIONS...: the focus is that of planar depth. The lens radius is known.
-    exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.24 "${@:2}"
-    holds focus_distance "$least" "$most"
-    holds lens_radius 0.24 0.24
-}
-least=2.8 most=3.25 by_depth fence/center.exr
-least=$(awk "BEGIN { print $(value focus_distance) - 0.01 }") most=$(awk "BEGIN { print $(value focus_distance) + 0.01 }")
-with_depth() { # with_depth OUT WORDS...: oiiotool changes the depth by these words.
-    oiiotool fence/center.exr --ch R,G,B,A fence/center.exr --ch Z "${@:2}" --chappend -o "$1"
-}
-with_depth inverse.exr --powc -1 --chnames away
-by_depth inverse.exr --depth inverse --depth-channel away
-with_depth normalized.exr --subc 1 --mulc 0.05 # 0 at 1, 1 at 21
-by_depth normalized.exr --depth normalized --near 1 --far 21
+    # From a flat picture with depth, of proxy geometry say, whose depth may be of any kind.
+    exits 0 "$match" fence/center.exr plate.exr --json
+    holds focus_distance 2.8 3.25
+    holds lens_radius 0.216 0.252 # one view does not know what is hidden
+    by_depth() { # by_depth FLAT OPTIONS...: the focus is that of planar depth. The lens radius is known.
+        exits 0 "$match" "$1" plate.exr --json --fit focus --lens-radius 0.24 "${@:2}"
+        holds focus_distance "$least" "$most"
+        holds lens_radius 0.24 0.24
+    }
+    least=2.8 most=3.25 by_depth fence/center.exr
+    least=$(awk "BEGIN { print $(value focus_distance) - 0.01 }") most=$(awk "BEGIN { print $(value focus_distance) + 0.01 }")
+    with_depth() { # with_depth OUT WORDS...: oiiotool changes the depth by these words.
+        oiiotool fence/center.exr --ch R,G,B,A fence/center.exr --ch Z "${@:2}" --chappend -o "$1"
+    }
+    with_depth inverse.exr --powc -1 --chnames away
+    by_depth inverse.exr --depth inverse --depth-channel away
+    with_depth normalized.exr --subc 1 --mulc 0.05 # 0 at 1, 1 at 21
+    by_depth normalized.exr --depth normalized --near 1 --far 21
+fi
 
 # Options that all tools share.
 exits 0 "${by_region[@]}" --threads 1 -o again.json -v
@@ -75,37 +78,41 @@ exits 0 "$bin/dof-gather" ldi.exr --focus-distance "$(grep -A1 '"focus_distance"
 picture same by-keys.0001.exr by-hand.exr 0.001 || fail "@keys.json"
 fails_saying 2 'keys.json: has no "blades"' "$bin/dof-gather" ldi.exr --frames 1 --blades @keys.json -o x.####.exr
 
-# A rack of focus; a frame without a plate to match gets its neighbours' values.
-focus_of() { awk "BEGIN { print 2 + 0.4 * $1 }"; }
-for frame in 2 3 4; do plate "rack.000$frame.exr" "$(focus_of $frame)" 0.18; done
-picture edit rack.0002.exr rack.0001.exr R=0 G=0 B=0
-cp rack.0001.exr rack.0005.exr
-exits 0 "$match" ldi.exr "rack.####.exr" --frames 1-4 -o rack.json
-grep -q '^ *frame  focus distance' stdout || fail "the table: $(cat stdout)"
-[ "$(wc -l <stdout)" -eq 5 ] || fail "a line for each frame of --frames: $(cat stdout)"
-for frame in 2 3 4; do
-    awk -v at="$(sed -n "$((frame + 1))p" stdout | awk '{ print $2 }')" -v true="$(focus_of $frame)" \
-        'BEGIN { d = 17.28 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
-done
-grep -q 'warning: rack.0001.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
+if [ "${2:-}" = --all ]; then
+    # A rack of focus; a frame without a plate to match gets its neighbours' values.
+    focus_of() { awk "BEGIN { print 2 + 0.4 * $1 }"; }
+    for frame in 2 3 4; do plate "rack.000$frame.exr" "$(focus_of $frame)" 0.18; done
+    picture edit rack.0002.exr rack.0001.exr R=0 G=0 B=0
+    cp rack.0001.exr rack.0005.exr
+    exits 0 "$match" ldi.exr "rack.####.exr" --frames 1-4 -o rack.json
+    grep -q '^ *frame  focus distance' stdout || fail "the table: $(cat stdout)"
+    [ "$(wc -l <stdout)" -eq 5 ] || fail "a line for each frame of --frames: $(cat stdout)"
+    for frame in 2 3 4; do
+        awk -v at="$(sed -n "$((frame + 1))p" stdout | awk '{ print $2 }')" -v true="$(focus_of $frame)" \
+            'BEGIN { d = 17.28 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
+    done
+    grep -q 'warning: rack.0001.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
 
-# The discs of lamps show the blades.
-exits 0 "$bin/dof-trace" lamps --size 160x90 --spp 8 --lens-radius 0.32 -o lamps
-exits 0 "$bin/ldi-warp" lamps/center.exr lamps/view_{0..3}.exr -o lamps.ldi.exr
-exits 0 "$bin/dof-gather" lamps.ldi.exr --focus-distance 2.5 --blades 6 --blade-rotation 17 -o blades.exr
-exits 0 "$match" lamps.ldi.exr blades.exr --shape --fit fstop --focus-distance 2.5 -o blades.json
-grep -qE '^--blades 6 --blade-rotation 1[678] --squeeze 1.00$' stdout || fail "--shape: $(cat stdout)"
-exits 0 "$bin/dof-gather" lamps.ldi.exr --frames 1 --blades @blades.json --blade-rotation @blades.json -o again.####.exr
+    # The discs of lamps show the blades.
+    exits 0 "$bin/dof-trace" lamps --size 160x90 --spp 8 --lens-radius 0.32 -o lamps
+    exits 0 "$bin/ldi-warp" lamps/center.exr lamps/view_{0..3}.exr -o lamps.ldi.exr
+    exits 0 "$bin/dof-gather" lamps.ldi.exr --focus-distance 2.5 --blades 6 --blade-rotation 17 -o blades.exr
+    exits 0 "$match" lamps.ldi.exr blades.exr --shape --fit fstop --focus-distance 2.5 -o blades.json
+    grep -qE '^--blades 6 --blade-rotation 1[678] --squeeze 1.00$' stdout || fail "--shape: $(cat stdout)"
+    exits 0 "$bin/dof-gather" lamps.ldi.exr --frames 1 --blades @blades.json --blade-rotation @blades.json -o again.####.exr
+fi
 
 # Plates that cannot be matched say why.
 picture edit plate.exr black.exr R=0 G=0 B=0
 fails_saying 1 'black.exr: .*shows nothing to compare' "$match" ldi.exr black.exr
-exits 0 "$bin/dof-trace" planes --size 96x54 --views 0 --spp 1 --reference 16 -o other
-fails_saying 1 'shows something else than the LDI' "$match" ldi.exr other/reference.exr --fit fstop --focus-distance 3
-oiiotool plate.exr --kernel box 11x1 --convolve -o moved.exr
-fails_saying 1 'blurred by motion' "$match" ldi.exr moved.exr --fit focus --lens-radius 0.24
-plate sharp.exr 4 0.003
-fails_saying 1 'out of focus' "$match" ldi.exr sharp.exr --fit fstop --focus-distance 4
+if [ "${2:-}" = --all ]; then
+    exits 0 "$bin/dof-trace" planes --size 96x54 --views 0 --spp 1 --reference 16 -o other
+    fails_saying 1 'shows something else than the LDI' "$match" ldi.exr other/reference.exr --fit fstop --focus-distance 3
+    oiiotool plate.exr --kernel box 11x1 --convolve -o moved.exr
+    fails_saying 1 'blurred by motion' "$match" ldi.exr moved.exr --fit focus --lens-radius 0.24
+    plate sharp.exr 4 0.003
+    fails_saying 1 'out of focus' "$match" ldi.exr sharp.exr --fit fstop --focus-distance 4
+fi
 oiiotool plate.exr --resize 48x27 -o small.exr
 fails_saying 1 'small.exr: its display window is 48 x 27' "$match" ldi.exr small.exr
 [ ! -e x.json ] || fail "keys of a plate that cannot be matched"
