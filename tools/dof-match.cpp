@@ -29,10 +29,11 @@ struct FrameFiles {
     std::string ldi, plate, show;
 };
 
-std::vector<FrameFiles> files_of(const MatchCommand &options) {
+std::vector<FrameFiles> files_of(const MatchCommand &options, const ToolContext &tool) {
     std::vector<std::string> words{options.plate, options.input, options.show};
     if (!options.frames.empty()) words.insert(words.end(), {"--frames", options.frames});
     const FrameCommands frames(words);
+    for (const std::string &text : frames.warnings()) warn(tool, text);
     std::vector<FrameFiles> files;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::vector<std::string> names = frames.words(i);
@@ -143,7 +144,7 @@ void print(const std::string &text) {
 }
 
 void run(const MatchCommand &options, const ToolContext &tool) {
-    const std::vector<FrameFiles> files = files_of(options);
+    const std::vector<FrameFiles> files = files_of(options, tool);
     Shot shot(options, tool);
     MatchRequest request = options.match;
     request.lens = options.lens;

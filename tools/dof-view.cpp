@@ -113,6 +113,7 @@ int view(const std::vector<std::string> &words, const FrameCommands &frames) {
     return run_tool(app, frames.words(0), [&](const ToolContext &tool) {
         if (options.pipe) return answer_pipe(tool);
         options.presets = lens_presets();
+        for (const std::string &text : frames.warnings()) warn(tool, text);
         Viewer viewer(options, words, frames, tool);
         const std::string key = random_key();
         serve(viewer, options.port, key, [&](int port) {

@@ -36,7 +36,8 @@ std::optional<int> number_in(std::string_view text) {
 
 // The numbers of files that exist, with their spelling.
 std::vector<std::pair<int, std::string>> found_on_disk(const std::string &path) {
-    const std::size_t at = path.find(placeholder), slash = path.rfind('/', at) + 1; // 0 if there is none
+    const std::size_t at = path.find(placeholder, existing_folders(path)),
+                      slash = path.rfind('/', at) + 1; // 0 if there is none
     const std::string folder = slash > 0 ? path.substr(0, slash) : ".",
                       first = path.substr(slash, at - slash), after = path.substr(at + placeholder.size()),
                       last = after.substr(0, after.find('/'));
@@ -56,22 +57,34 @@ std::vector<std::pair<int, std::string>> found_on_disk(const std::string &path) 
 
 } // namespace
 
-bool names_moments(const std::string &path) {
-    std::error_code error;
-    return path.find(placeholder) != std::string::npos && !fs::exists(path, error);
+std::size_t existing_folders(const std::string &path) {
+    std::error_code missing;
+    std::size_t length = path.rfind('/') + 1; // 0 if there is none
+    while (length > 1 && !fs::is_directory(path.substr(0, length), missing))
+        length = path.rfind('/', length - 2) + 1;
+    return length;
 }
 
-std::string at_moment(std::string path, const std::string &number) {
-    for (std::size_t at = path.find(placeholder); at != std::string::npos;
-         at = path.find(placeholder, at + number.size()))
-        path.replace(at, placeholder.size(), number);
+std::string with_placeholder(std::string path, std::string_view sign, const std::string &text) {
+    for (std::size_t at = existing_folders(path); (at = path.find(sign, at)) != std::string::npos;
+         at += text.size())
+        path.replace(at, sign.size(), text);
     return path;
 }
 
+bool names_moments(const std::string &path) {
+    std::error_code error;
+    return path.find(placeholder, existing_folders(path)) != std::string::npos && !fs::exists(path, error);
+}
+
+std::string at_moment(std::string path, const std::string &number) {
+    return with_placeholder(std::move(path), placeholder, number);
+}
+
 std::string without_moment(std::string path) {
-    for (std::size_t at = 0; (at = path.find(placeholder)) != std::string::npos;) {
+    for (std::size_t at = existing_folders(path); (at = path.find(placeholder, at)) != std::string::npos;) {
         const std::size_t before = at > 0 && std::string_view("._-").find(path[at - 1]) < 3 ? 1 : 0;
-        path.erase(at - before, before + placeholder.size());
+        path.erase(at -= before, before + placeholder.size());
     }
     return path;
 }

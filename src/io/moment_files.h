@@ -4,15 +4,24 @@
 
 #include <ImfHeader.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sparselens {
 
 inline constexpr const char *moment_placeholder = "%s";
 
-// Whether the name has %s, and is not the name of an existing file.
+// The length of the folders at the beginning of a path that exist. What a tool would replace in a name (%s, ####, %V) is
+// a part of their names.
+std::size_t existing_folders(const std::string &path);
+
+// The path with the text in the place of each placeholder behind the folders that exist.
+std::string with_placeholder(std::string path, std::string_view placeholder, const std::string &text);
+
+// Whether the name has %s behind the folders that exist, and is not the name of an existing file.
 bool names_moments(const std::string &path);
 
 // The name with the number in the place of each %s.

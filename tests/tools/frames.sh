@@ -232,6 +232,17 @@ exits 0 "$gather" 'take#2.exr' -o one.exr
 exits 0 "$gather" ldi.exr -o two.exr
 same one.exr two.exr "a name with a #"
 
+# A folder's name is a name, also with a #; numbers that are left out and keys out of reach are told.
+mkdir 'job #12'
+for n in -0002 -001 0000 07; do cp ldi.exr "job #12/in.$n.exr"; done
+exits 0 "$gather" 'job #12/in.#.exr' -o 'job #12/to.#.exr' --focus-distance 5:3,9:2
+[ "$(find . -name 'to.*' | sort | tr '\n' ' ')" = './job #12/to.-001.exr ./job #12/to.-002.exr ./job #12/to.0000.exr ' ] || fail "frames in a folder with a #: $(find . -name 'to.*')"
+grep -q 'warning: job #12/in.#.exr leaves out 1 of 4 files .*: job #12/in.%02d.exr takes job #12/in.07.exr' stderr || fail "files left out: $(cat stderr)"
+grep -q 'warning: --focus-distance is 3 for all frames: they are -2 to 0' stderr || fail "keys out of reach: $(cat stderr)"
+[ "$(wc -l <stderr)" -eq 2 ] || fail "not two warnings: $(cat stderr)"
+exits 0 "$gather" 'job #12/in.07.exr' -o 'job #12/one.exr'
+same two.exr 'job #12/one.exr' "a folder with a #"
+
 # Progress for farms: over all frames, increasing, each percent once, to the end; nothing by default.
 progress() { # FORMAT PATTERN COMMAND...: only lines of the pattern on stderr; its group is the percentage
     local format=$1 pattern=$2

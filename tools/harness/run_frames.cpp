@@ -50,8 +50,8 @@ std::string prefix_of(const std::string &name, const std::vector<std::string> &w
 void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_option(
            "--frames", options.frames,
-           "Frames to process, e.g. 1-100x2 or 1,3,5-9; file names may hold #### or %04d, and values may be "
-           "keyed, e.g. 1:5.0,24:2.0")
+           "Frames to process, e.g. 1-100x2 or 1,3,5-9; file names may hold #### (also #: four digits) or "
+           "%04d, and values may be keyed, e.g. 1:5.0,24:2.0")
         ->type_name("RANGE")
         ->group("Frames");
     app.add_flag("--skip-bad-frames", options.skip_bad_frames,
@@ -192,6 +192,7 @@ int run_words(const std::string &name, const std::string &description, const std
     }
     code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
     if (code != 0) return code;
+    for (const std::string &text : commands->warnings()) warn(*context_of(name, *first), text);
 
     const ProgressFormat format = first->frames.progress;
     const Process process(first->process, *context_of(name, *first));

@@ -52,7 +52,8 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
         ->check(output_name(OutputKind::picture));
     app.add_flag("--json", options.json, "Print JSON instead of a table");
     app.add_option("--frames", options.frames,
-                   "Frames to match; file names hold #### or %04d (default: the plates on disk)")
+                   "Frames to match; file names hold #### (also #: four digits) or %04d (default: the plates "
+                   "on disk)")
         ->type_name("RANGE")
         ->group("Frames");
     app.add_option("--stats", options.stats, "Append statistics as one line of JSON per frame; - for stderr")

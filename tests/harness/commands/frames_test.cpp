@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "harness/commands/each_picture.h"
 #include "harness/commands/frames.h"
 #include "harness/progress_lines.h"
 #include "support/scratch_folder.h"
@@ -215,9 +216,10 @@ TEST(FrameCommands, NegativeNumbersAreFoundOnDisk) {
     for (const char *name : {"in.-002.exr", "in.0001.exr", "in.-0001.exr"})
         put_contents(folder.file(name), "x");
     const FrameCommands commands({folder.file("in.####.exr"), "-o", "out.%d.exr"});
-    ASSERT_EQ(commands.size(), 2u); // %04d writes -1 as -001, not as -0001
+    ASSERT_EQ(commands.size(), 3u);
     EXPECT_EQ(commands.words(0)[2], "out.-2.exr");
-    EXPECT_EQ(commands.words(1)[2], "out.1.exr");
+    EXPECT_EQ(commands.words(1)[2], "out.-1.exr");
+    EXPECT_EQ(commands.words(2)[2], "out.1.exr");
     EXPECT_EQ(FrameCommands({"--frames=-5--4", "-o", "#"}).words(0)[2], "-005");
     EXPECT_EQ(FrameCommands({"--frames", "-5-5", "-o", "#"}).size(), 11u);
 }
@@ -236,18 +238,18 @@ TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
 
 // As a regular expression in OpenImageIO, the first matches nothing and the second takes years.
 TEST(FrameCommands, WhatElseStandsInAFilesNameStandsForItself) {
-    const ScratchFolder folder;
     const std::string stars = "t" + std::string(40, '*') + "-o.";
     for (const std::string &name : Words{"shot [v2]+(final).", stars, "-", ".", ""}) {
+        const ScratchFolder folder;
         for (const char *number : {"0007", "0012", "00x7"})
             put_contents(folder.file(name + number + ".exr"), "x");
         const FrameCommands commands({folder.file(name + "####.exr"), "-o", folder.file("to/####.exr")});
         ASSERT_EQ(commands.size(), 2u) << name;
         EXPECT_EQ(commands.words(1)[0], folder.file(name + "0012.exr"));
         EXPECT_EQ(commands.words(1)[2], folder.file("to/0012.exr"));
+        EXPECT_THROW(FrameCommands({folder.file("t**********************************.#e"), "-o", "#"}),
+                     UsageError);
     }
-    EXPECT_THROW(FrameCommands({folder.file("t**********************************.#e"), "-o", "#"}),
-                 UsageError);
 }
 
 TEST(FrameCommands, TheNumberMayStandInAFoldersName) {
@@ -260,6 +262,41 @@ TEST(FrameCommands, TheNumberMayStandInAFoldersName) {
     ASSERT_EQ(commands.size(), 2u);
     EXPECT_EQ(commands.words(0)[0], folder.file("f0001/in.exr"));
     EXPECT_EQ(commands.words(1)[2], "out.0003.exr");
+}
+
+// Signs in the name of a folder that exists belong to its name; behind it they stand for the number.
+TEST(FrameCommands, AFolderOfThatNameIsThatFolder) {
+    const ScratchFolder folder;
+    for (const char *name : {"job #12", "a##b", "x%04d", "a@@b", "p$F4", "shots 1-3#"}) {
+        const std::string in = folder.file(name) + "/", out = in + "new.##/";
+        std::filesystem::create_directories(in + "more #");
+        for (const char *file : {"in.0007.exr", "in.0008.exr", "still.exr"}) put_contents(in + file, "x");
+        EXPECT_FALSE(FrameCommands({in + "still.exr", "-o", in + "still out.exr"}).is_range()) << name;
+        for (const Words &words : {Words{in + "in.####.exr", "-o", out + "o.#.exr"},
+                                   Words{in + "in.#.exr", "-o" + out + "o.#.exr",
+                                         "--output=" + out + "o.#.exr", "--frames", "7-8"}}) {
+            const FrameCommands commands(words);
+            ASSERT_EQ(commands.size(), 2u) << name;
+            EXPECT_EQ(commands.words(1)[0], in + "in.0008.exr");
+            EXPECT_TRUE(commands.words(1)[1].ends_with(words[1] == "-o" ? "-o" : in + "new.08/o.0008.exr"));
+            EXPECT_TRUE(commands.words(1)[2].ends_with(in + "new.08/o.0008.exr"));
+            EXPECT_EQ(commands.other_frame(0, in + "in.0007.exr", 2), in + "in.0009.exr");
+        }
+        EXPECT_EQ(file_at(in + "more #/%d.exr", 5), in + "more #/5.exr");
+    }
+    EXPECT_EQ(file_at(folder.file("other #/%d.exr"), 5), folder.file("other 0005/5.exr"));
+}
+
+TEST(EachPicture, FoldersThatExistKeepTheirNames) {
+    const ScratchFolder folder;
+    for (const char *name : {"take %s", "50%V"}) std::filesystem::create_directory(folder.file(name));
+    const std::string in = folder.file("take %s/c_%s.exr"), to = folder.file("50%V/p.%V.exr");
+    for (const char *moment : {"0", "1"}) put_contents(folder.file("take %s/c_") + moment + ".exr", "x");
+    EXPECT_EQ(words_for_moments({in, "--output=" + in}).at(1),
+              (Words{folder.file("take %s/c_1.exr"), "--output=" + folder.file("take %s/c_1.exr")}));
+    EXPECT_FALSE(asks_for_each_moment({in, "-o", folder.file("take %s/out.exr")}));
+    EXPECT_EQ(words_for_one(each_view(), {"a.exr", "-o", to, "--stereo-view=all"}, "left")[2],
+              folder.file("50%V/p.left.exr"));
 }
 
 TEST(FrameCommands, FramesDoNotShareAnOutput) {
@@ -279,6 +316,72 @@ TEST(FrameCommands, AFileOfThatNameIsThatFile) {
     put_contents(folder.file("take#2.exr"), "x");
     EXPECT_FALSE(FrameCommands({folder.file("take#2.exr"), "-o", "x.exr"}).is_range());
     EXPECT_TRUE(FrameCommands({folder.file("take#2.exr"), "--frames=1-2"}).is_range());
+    const auto word = [](const Words &words, std::size_t i) { return FrameCommands(words).words(0).at(i); };
+    const std::string name = folder.file("take#2.exr"), first = folder.file("take00012.exr");
+    EXPECT_EQ(word({name, "-o", "x.#.exr", "--frames", "1-2"}, 0), name); // one LDI for all frames
+    EXPECT_EQ(word({"in.exr", "-o", name}, 2), name);
+    EXPECT_EQ(word({"in.exr", "-o", name, "--frames", "1-2"}, 2), first); // several need several outputs
+    put_contents(folder.file("in.0001.exr"), "x");
+    EXPECT_EQ(word({folder.file("in.#.exr"), "-o", name}, 2), first);
+    put_contents(first, "x");
+    EXPECT_EQ(word({name, "--frames", "1-2"}, 0), first); // that is what --frames asks for
+}
+
+TEST(FrameCommands, NegativeNumbersAreReadInBothSpellings) {
+    const ScratchFolder folder;
+    for (const char *name : {"in.-0003.exr", "in.-002.exr", "in.-0001.exr", "in.-001.exr", "in.0000.exr",
+                             "m.-0002_0.exr", "m.-0002_1.exr"})
+        put_contents(folder.file(name), "x");
+    const std::string in = folder.file("in.####.exr"), moments = folder.file("m.%04d_%s.exr");
+    const FrameCommands commands({in, "-o", in});
+    ASSERT_EQ(commands.size(), 4u);
+    EXPECT_EQ(commands.words(0), (Words{folder.file("in.-0003.exr"), "-o", folder.file("in.-003.exr")}));
+    EXPECT_EQ(commands.words(1)[0], folder.file("in.-002.exr"));
+    EXPECT_EQ(commands.words(2)[0], folder.file("in.-001.exr")); // as printf writes it
+    EXPECT_EQ(commands.words(3)[0], folder.file("in.0000.exr"));
+    EXPECT_EQ(commands.other_frame(1, folder.file("in.-002.exr"), -1), folder.file("in.-0003.exr"));
+    EXPECT_TRUE(commands.warnings().empty());
+    for (const char *name : {"shot-0001.exr", "shot0002.exr"}) put_contents(folder.file(name), "x");
+    EXPECT_EQ(FrameCommands({folder.file("shot#.exr")}).size(), 1u); // there it is a hyphen
+    EXPECT_EQ(FrameCommands({moments, "-o", "o.#.exr"}).words(0)[0], folder.file("m.-0002_%s.exr"));
+}
+
+TEST(FrameCommands, TellWhichFilesTheyLeaveOut) {
+    const ScratchFolder folder;
+    const auto told = [&](const std::string &name) { // the first warning
+        const std::vector<std::string> warnings = FrameCommands({folder.file(name)}).warnings();
+        return warnings.empty() ? "" : warnings.at(0);
+    };
+    const auto leaves = [&](const std::string &name, const char *how_many, const std::string &other,
+                            const char *file) {
+        return folder.file(name) + " leaves out " + how_many +
+               " files by their number of digits: " + folder.file(other) + " takes " + folder.file(file);
+    };
+    for (const char *name : {"u.1.exr", "u.99.exr", "u.100.exr", "u.1000.exr", "z.01.exr", "z.0001.exr",
+                             "z.002.exr", "m.1_0.exr", "m.0002_0.exr"})
+        put_contents(folder.file(name), "x");
+    EXPECT_EQ(told("u.#.exr"), leaves("u.#.exr", "3 of 4", "u.%d.exr", "u.1.exr"));
+    EXPECT_EQ(told("u.%d.exr"), "");
+    EXPECT_EQ(told("z.#.exr"), leaves("z.#.exr", "1 of 2", "z.%03d.exr", "z.002.exr"));
+    EXPECT_EQ(told("m.#_%s.exr"), leaves("m.#_%s.exr", "1 of 2", "m.%d_%s.exr", "m.1_%s.exr"));
+    EXPECT_EQ(what_of<UsageError>([&] { told("u.######.exr"); }),
+              leaves("u.######.exr", "4 of 4", "u.%d.exr", "u.1.exr"));
+    EXPECT_EQ(what_of<UsageError>([&] { told("m.##_%s.exr"); }),
+              leaves("m.##_%s.exr", "2 of 2", "m.%d_%s.exr", "m.1_%s.exr"));
+    EXPECT_TRUE(FrameCommands({folder.file("u.#.exr"), "--frames", "1000"}).warnings().empty());
+}
+
+TEST(FrameCommands, TellOfKeysThatNoFrameReaches) {
+    const auto told = [](const char *frames, const char *keys) {
+        const FrameCommands commands({"--frames", frames, "--focus-distance", keys, "--fstop=2:4"});
+        return commands.warnings().size() < 2 ? "" : commands.warnings().at(0);
+    };
+    EXPECT_EQ(told("1001-1003", "1:2.2,3:8"),
+              "--focus-distance is 8 for all frames: they are 1001 to 1003, and its keys 1 to 3");
+    EXPECT_EQ(told("-3--1", "1:2.5,3:8"),
+              "--focus-distance is 2.5 for all frames: they are -3 to -1, and its keys 1 to 3");
+    EXPECT_TRUE(FrameCommands({"--frames", "2", "--fstop", "1:4,3:8"}).warnings().empty());
+    EXPECT_TRUE(FrameCommands({"--frames", "3-9", "--fstop", "1:4,3:8"}).warnings().empty());
 }
 
 TEST(ProgressLines, AreTheFarms) {

@@ -24,10 +24,20 @@ std::size_t value_of_option(const std::string &option, const std::vector<std::st
     return words.size();
 }
 
+// The word with the text in the place of each placeholder in its value.
+std::string filled(const std::string &word, const std::string &placeholder, const std::string &text) {
+    const std::size_t start = start_of_value(word);
+    return word.substr(0, start) + with_placeholder(word.substr(start), placeholder, text);
+}
+
+bool has_placeholder(const std::string &word, const std::string &placeholder) {
+    return filled(word, placeholder, "") != word;
+}
+
 } // namespace
 
 bool is_output_with(const std::string &placeholder, const std::vector<std::string> &words, std::size_t i) {
-    if (words[i].find(placeholder) == std::string::npos) return false;
+    if (!has_placeholder(words[i], placeholder)) return false;
     const std::string joined = words[i].substr(0, words[i].find('='));
     return (i > 0 && is_output_word(words[i - 1])) || is_output_word(joined) || joined.starts_with("-o");
 }
@@ -58,25 +68,20 @@ std::vector<std::string> words_for_one(const EachPicture &each, std::vector<std:
                                      each.option, each.noun, each.placeholder));
     const std::size_t value = value_of_option(each.option, words);
     words[value] = words[value].starts_with(each.option) ? each.option + "=" + name : name;
-    for (std::string &word : words)
-        for (std::size_t at = word.find(each.placeholder); at != std::string::npos;
-             at = word.find(each.placeholder, at + name.size()))
-            word.replace(at, each.placeholder.size(), name);
+    for (std::string &word : words) word = filled(word, each.placeholder, name);
     return words;
 }
 
 namespace {
 
-bool has_placeholder(const std::string &word) { return word.find(moment_placeholder) != std::string::npos; }
-
 // The first input with %s at the first frame, or nothing.
 std::optional<std::string> input_of_moments(const std::vector<std::string> &words) {
-    if (std::ranges::none_of(words, has_placeholder)) return {};
+    if (std::ranges::none_of(words, [](auto &word) { return has_placeholder(word, moment_placeholder); }))
+        return {};
     const std::vector<std::string> first = FrameCommands(words).words(0);
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (is_output_with(moment_placeholder, words, i)) continue;
-        const bool is_option = first[i].starts_with("--") && first[i].find('=') != std::string::npos;
-        const std::string name = is_option ? first[i].substr(first[i].find('=') + 1) : first[i];
+        const std::string name = first[i].substr(start_of_value(first[i]));
         if (names_moments(name)) return name;
     }
     return {};
@@ -96,7 +101,7 @@ std::vector<std::vector<std::string>> words_for_moments(const std::vector<std::s
     std::vector<std::vector<std::string>> commands;
     for (const std::string &number : moments_on_disk(*input)) {
         commands.push_back(words);
-        for (std::string &word : commands.back()) word = at_moment(word, number);
+        for (std::string &word : commands.back()) word = filled(word, moment_placeholder, number);
     }
     return commands;
 }

@@ -24,6 +24,8 @@ namespace sparselens {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t most_frames = 1'000'000;
 constexpr std::size_t longest_name = 4096; // of a path; std::regex recurses once per character
 
@@ -31,8 +33,9 @@ constexpr std::size_t longest_name = 4096; // of a path; std::regex recurses onc
 // any.
 struct Place {
     std::size_t begin = 0, end = 0;
-    std::string range; // "1-24x2"
-    int width = 0;     // digits, with zeros before the number
+    std::string range;  // "1-24x2"
+    int width = 0;      // digits, with zeros before the number
+    bool joins = false; // a letter or a digit, so that a minus between is a hyphen
 };
 
 // An optional range (1: at least one part is more than a number), then #, @@, %04d (2, 3: the digits) or $F4 (4: the
@@ -55,18 +58,50 @@ int width_of(const std::smatch &match) {
     return width;
 }
 
-std::optional<Place> find_place(const std::string &name, std::size_t from = 0) {
+std::optional<Place> find_place(const std::string &name, std::size_t from) {
     std::smatch match;
     if (!std::regex_search(name.begin() + std::ptrdiff_t(from), name.end(), match, sequence_pattern()))
         return {};
     const std::size_t begin = from + std::size_t(match.position());
-    Place place{begin, begin + std::size_t(match.length()), match[1], width_of(match)};
-    const bool joins = begin > 0 && std::isalnum(static_cast<unsigned char>(name[begin - 1]));
-    if (joins && place.range.starts_with('-')) { // a hyphen, not a sign
+    Place place{begin, begin + std::size_t(match.length()), match[1], width_of(match),
+                begin > 0 && std::isalnum(static_cast<unsigned char>(name[begin - 1]))};
+    if (place.joins && place.range.starts_with('-')) {
         ++place.begin;
         place.range.erase(0, 1);
     }
     return place;
+}
+
+// The name with the text that `text_for` gives for a place in each place behind the folders that exist.
+template <typename TextFor>
+std::string filled(const std::string &name, const TextFor &text_for) {
+    std::size_t from = existing_folders(name);
+    std::string result = name.substr(0, from);
+    for (auto place = find_place(name, from); place; from = place->end, place = find_place(name, from))
+        result += name.substr(from, place->begin - from) + text_for(*place);
+    return result + name.substr(from);
+}
+
+std::string with_sign(const std::string &name, const std::string &sign) {
+    return filled(name, [&sign](const Place &) { return sign; });
+}
+
+// Whether the file exists, or files of moments do.
+bool is_there(const std::string &name) try {
+    std::error_code error;
+    return names_moments(name) ? !moments_on_disk(name).empty() : fs::exists(name, error);
+} catch (const Error &) { // there are no moments
+    return false;
+}
+
+// The file of the frame as it is read: of a negative frame, -003 or, if only that is there, -0003.
+std::string file_read_at(const std::string &name, int number) {
+    const std::string file = file_at(name, number);
+    if (number >= 0 || is_there(file)) return file;
+    const std::string wider = filled(name, [number](const Place &place) {
+        return fmt::format("{:0{}}", number, place.width + (place.joins ? 0 : 1));
+    });
+    return is_there(wider) ? wider : file;
 }
 
 // The number between `before` and `after` in a file's name.
@@ -81,35 +116,51 @@ std::optional<int> number_in(std::string_view file, std::string_view before, std
     return number;
 }
 
-std::vector<int> numbers_on_disk(const std::string &name);
+struct OnDisk {
+    std::set<int> numbers; // of the files
+    std::set<std::pair<int, std::string>>
+        left_out; // numbers with other digits, and the sign (%d) that takes them
+};
+
+OnDisk found_on_disk(const std::string &name);
 
 // The numbers of the frames of which a file for the first moment of the shutter exists: moment 0 or 1.
-std::vector<int> numbers_of_first_moment(const std::string &name) {
+OnDisk frames_of_first_moment(const std::string &name) {
+    OnDisk found;
     for (const int width : {1, 2, 3, 4})
-        for (const int first : {0, 1})
-            if (auto found = numbers_on_disk(at_moment(name, fmt::format("{:0{}}", first, width)));
-                !found.empty())
-                return found;
-    return {};
+        for (const int first : {0, 1}) {
+            OnDisk here = found_on_disk(at_moment(name, fmt::format("{:0{}}", first, width)));
+            if (!here.numbers.empty()) return here;
+            found.left_out.merge(here.left_out);
+        }
+    return found;
 }
 
-// The numbers of the files on disk, ascending. Everything but the number is compared literally: OpenImageIO would treat
-// the name as a regular expression, which fails for brackets, and some expressions take forever.
-std::vector<int> numbers_on_disk(const std::string &name) {
-    namespace fs = std::filesystem;
-    const auto place = find_place(name);
+// Everything but the number is compared literally: OpenImageIO would treat the name as a regular expression, which
+// fails for brackets, and some expressions take forever.
+OnDisk found_on_disk(const std::string &name) {
+    const auto place = find_place(name, existing_folders(name));
     if (!place) return {};
-    if (names_moments(name)) return numbers_of_first_moment(name);
+    if (names_moments(name)) return frames_of_first_moment(name);
     const std::string before = name.substr(0, place->begin), after = name.substr(place->end);
     const std::size_t slash = before.rfind('/') + 1; // 0 if there is none
     const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),
                       last = after.substr(0, after.find('/'));
-    std::set<int> numbers;
-    std::error_code error, missing; // a folder that is not there has no files
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (const auto number = number_in(entry->path().filename().native(), first, last))
-            if (fs::exists(file_at(name, *number), missing)) numbers.insert(*number);
-    return {numbers.begin(), numbers.end()};
+    OnDisk found;
+    std::error_code error; // a folder that is not there has no files
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string file = entry->path().filename().native();
+        const auto number = number_in(file, first, last);
+        if (!number) continue;
+        const std::size_t digits = file.size() - first.size() - last.size();
+        const bool has_zeros = digits > fmt::to_string(*number).size();
+        const std::string sign = has_zeros ? fmt::format("%0{}d", digits) : "%d";
+        if (is_there(file_read_at(name, *number)))
+            found.numbers.insert(*number);
+        else if (is_there(file_at(with_sign(name, sign), *number)))
+            found.left_out.emplace(*number, sign);
+    }
+    return found;
 }
 
 // The parameter of an option whose values can be keyed by frame, in a word or in a file (@keys.txt); else null.
@@ -157,18 +208,13 @@ std::vector<int> frame_numbers(const std::string &range) {
 }
 
 std::string file_at(const std::string &name, int number) {
-    std::string result;
-    std::size_t from = 0;
-    for (auto place = find_place(name); place; from = place->end, place = find_place(name, from))
-        result += name.substr(from, place->begin - from) + fmt::format("{:0{}}", number, place->width);
-    return result + name.substr(from);
+    return filled(name, [number](const Place &place) { return fmt::format("{:0{}}", number, place.width); });
 }
 
 FrameCommands::Word FrameCommands::read_word(const std::string &text, const std::string &previous,
-                                             bool names_are_names) {
-    const bool is_option = text.starts_with("--") && text.find('=') != std::string::npos;
-    const std::size_t start = is_option ? text.find('=') + 1 : 0;
-    const std::string option = is_option ? text.substr(0, start - 1) : previous;
+                                             const std::vector<int> &numbers) {
+    const std::size_t start = start_of_value(text);
+    const std::string option = start > 0 ? text.substr(0, std::min(start, text.find('='))) : previous;
     Word word;
     word.before = text.substr(0, start);
     word.value = text.substr(start);
@@ -183,11 +229,13 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
     else if (option.starts_with('-'))
         word.keys = parse_keys(word.value, kind);
     if (word.keys && keyed) word.keyed_option = option;
+    if (word.keys || word.value.size() > longest_name) return word;
     std::error_code error;
-    if (word.keys || word.value.size() > longest_name ||
-        (names_are_names && std::filesystem::exists(word.value, error)))
+    word.is_name = fs::exists(word.value, error);
+    if (word.is_name && !word.is_output &&
+        (numbers.empty() || !is_there(file_read_at(word.value, numbers.front()))))
         return word;
-    const auto place = find_place(word.value);
+    const auto place = find_place(word.value, existing_folders(word.value));
     word.is_sequence = place.has_value();
     if (place && !place->range.empty()) word.own_numbers = frame_numbers(place->range);
     return word;
@@ -198,10 +246,14 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
     if (!range.empty()) numbers_ = frame_numbers(range);
     bool options_ended = false; // after --, all words are names
     for (std::size_t i = 0; i < words.size(); ++i) {
-        words_.push_back(read_word(words[i], i > 0 && !options_ended ? words[i - 1] : "", range.empty()));
+        words_.push_back(read_word(words[i], i > 0 && !options_ended ? words[i - 1] : "", numbers_));
         options_ended = options_ended || words[i] == "--";
     }
 
+    const auto reads_frames = [](const Word &word) { return word.is_sequence && !word.is_output; };
+    if (range.empty() && std::ranges::none_of(words_, reads_frames))
+        for (Word &word : words_)
+            if (word.is_name) word.is_sequence = false;
     const Word *any = nullptr, *input = nullptr;
     for (const Word &word : words_) {
         if (!word.is_sequence) continue;
@@ -209,11 +261,23 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
         if (!input && !word.is_output) input = &word;
         if (numbers_.empty()) numbers_ = word.own_numbers;
     }
-    if (numbers_.empty() && input) numbers_ = numbers_on_disk(input->value);
+    if (numbers_.empty() && input) {
+        const OnDisk found = found_on_disk(input->value);
+        numbers_.assign(found.numbers.begin(), found.numbers.end());
+        if (!found.left_out.empty()) {
+            const auto &[number, sign] = *found.left_out.begin();
+            const std::string other = with_sign(input->value, sign);
+            warnings_.push_back(
+                fmt::format("{} leaves out {} of {} files by their number of digits: {} takes {}",
+                            input->value, found.left_out.size(), found.left_out.size() + numbers_.size(),
+                            other, file_at(other, number)));
+            if (numbers_.empty()) throw UsageError(warnings_.back());
+        }
+    }
     if (numbers_.empty() && any)
         throw UsageError(any->value + " stands for a sequence of files, but none exists: give --frames");
     for (const Word &word : words_)
-        if (!word.own_numbers.empty() && word.own_numbers.size() != numbers_.size())
+        if (word.is_sequence && !word.own_numbers.empty() && word.own_numbers.size() != numbers_.size())
             throw UsageError(fmt::format("{} has {} frames, not {}", word.value, word.own_numbers.size(),
                                          numbers_.size()));
     for (const Word &word : words_)
@@ -223,25 +287,37 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
     for (const Word &word : words_)
         if (word.keys_from_file && !is_range())
             throw UsageError(word.value + " holds a value for each frame: give --frames");
-    for (const Word &word : words_)
-        if (!word.keyed_option.empty() && !is_range())
+    for (const Word &word : words_) {
+        if (word.keyed_option.empty()) continue;
+        if (!is_range())
             throw UsageError(fmt::format("{} {} is keyed by frame, and keys need --frames", word.keyed_option,
                                          word.value));
+        warn_of_keys(word);
+    }
 }
 
-int FrameCommands::number_of(const Word &word, std::size_t i) const {
-    return word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i];
+void FrameCommands::warn_of_keys(const Word &word) {
+    const auto [first, last] = std::ranges::minmax(numbers_);
+    const int from = word.keys->by_frame.begin()->first, to = word.keys->by_frame.rbegin()->first;
+    if (first <= to && last >= from) return;
+    warnings_.push_back(fmt::format("{} is {} for all frames: they are {} to {}, and its keys {} to {}",
+                                    word.keyed_option, word_at_frame(*word.keys, first), first, last, from,
+                                    to));
 }
 
 std::string FrameCommands::other_frame(std::size_t i, const std::string &name, int later) const {
     for (const Word &word : words_)
-        if (word.is_sequence && is_range() && file_at(word.value, number_of(word, i)) == name)
-            return file_at(word.value, number_of(word, i) + later);
+        if (word.is_sequence && is_range() && name_at(word, i) == name) return name_at(word, i, later);
     return name;
 }
 
+std::string FrameCommands::name_at(const Word &word, std::size_t i, int later) const {
+    const int number = (word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i]) + later;
+    return word.is_output ? file_at(word.value, number) : file_read_at(word.value, number);
+}
+
 std::string FrameCommands::word_at(const Word &word, std::size_t i) const {
-    if (word.is_sequence) return word.before + file_at(word.value, number_of(word, i));
+    if (word.is_sequence) return word.before + name_at(word, i);
     return word.before + (word.keys ? word_at_frame(*word.keys, numbers_[i]) : word.value);
 }
 

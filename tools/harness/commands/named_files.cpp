@@ -92,6 +92,11 @@ bool is_input_word(std::string_view word) { return is_among(input_options, word)
 
 bool is_output_word(std::string_view word) { return word == "-o" || is_among(output_options, word); }
 
+std::size_t start_of_value(std::string_view word) {
+    if (word.starts_with("--")) return word.find('=') + 1; // 0 if there is none
+    return word.starts_with("-o") && word.size() > 2 ? 2 : 0;
+}
+
 NamedFiles named_files(const CLI::App &parsed) {
     NamedFiles files;
     for (const CLI::Option *option : parsed.get_options()) {

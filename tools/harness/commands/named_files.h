@@ -19,6 +19,9 @@ bool holds_all_frames(std::string_view path);
 // Whether the word is an option whose value is a file that is read: --lens, --depth-file, ...
 bool is_input_word(std::string_view word);
 
+// Where the value begins in a word that also holds its option, --output=x.exr or -ox.exr; 0 for other words.
+std::size_t start_of_value(std::string_view word);
+
 struct NamedFile {
     std::string option, path;
 };
