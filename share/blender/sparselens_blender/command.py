@@ -3,6 +3,7 @@ pictures of them, and of Blender's --command sparselens, which makes pictures.
 """
 
 import json
+import os
 import sys
 import traceback
 
@@ -36,7 +37,7 @@ def frames_of(options, scene):
         return options.frames
     if options.frame is not None:
         return [options.frame]
-    if options.picture and "#" in options.output:
+    if options.picture and "#" in os.path.basename(options.output):
         return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     return [scene.frame_current]
 

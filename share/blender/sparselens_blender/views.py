@@ -1,6 +1,7 @@
 """The views of a frame: names, points of the lens, and boxes of pixels."""
 
 import math
+import os
 import re
 
 
@@ -62,9 +63,13 @@ def views_of_lens(rim, spread):
 
 
 def numbered(name, frame):
-    """The name with the frame's number for each run of #."""
-    return re.sub("#+", lambda run: "%0*d" % (
-        4 if len(run[0]) == 1 else len(run[0]), frame), name)
+    """The name with the frame's number for each run of #, but not in folders
+    that exist, as the tools have it."""
+    folder = os.path.dirname(name)
+    while folder and not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    return folder + re.sub("#+", lambda run: "%0*d" % (
+        4 if len(run[0]) == 1 else len(run[0]), frame), name[len(folder):])
 
 
 def counted(number, word):
