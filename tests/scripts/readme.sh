@@ -50,6 +50,7 @@ grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
 cat >>options <<'END'
 --add
 --addc
+--all
 --array
 --attrib
 --build
@@ -71,6 +72,7 @@ cat >>options <<'END'
 --requeue
 --resize
 --set
+--slow
 --source-dir
 --system-site-packages
 --test-dir
