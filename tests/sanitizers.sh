@@ -34,8 +34,8 @@ case ${1-} in
 --quick)
     shift
     # The last three have generated sources, which tests/clang.sh --rest cannot read before they are made.
-    targets=(--target sparselens-tests sparselens-pictures dof-trace ldi-plan ldi-warp ldi-cluster dof-gather dof-finish dof-compare
-        dof-view sparselens_ofx sparselens_python)
+    targets=(--target sparselens-tests sparselens-pictures dof-accumulate dof-trace ldi-plan ldi-warp ldi-cluster dof-gather
+        dof-finish dof-compare dof-view sparselens_ofx sparselens_python)
     tests=(-R '^(unit\.|fixture\.|tools\.(bad-pixels|denoised|hostile|ldi-warp|layers|windows)$)')
     export GTEST_FILTER="-*Device*.*:$(paste -sd : <<<"$slowest")"
     ;;
