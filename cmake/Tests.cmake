@@ -6,7 +6,8 @@ function(sparselens_script_test name)
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 
-# sparselens_unit_tests(NAME EXECUTABLE SHARDS): in shards, as a process for each test would cost more than most tests.
+# sparselens_unit_tests(NAME EXECUTABLE SHARDS [TEST...]): in shards, as a process for each test would cost more than most
+# tests. The TESTs, SUITE.NAME as GoogleTest filters have it, run as NAME.slow, which is labelled `slow`.
 function(sparselens_unit_tests name executable shards)
     foreach(shard RANGE 1 ${shards})
         math(EXPR index "${shard} - 1")
@@ -14,6 +15,14 @@ function(sparselens_unit_tests name executable shards)
         set_tests_properties(${name}.${shard} PROPERTIES
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
     endforeach()
+    if(ARGN)
+        list(JOIN ARGN : slow)
+        foreach(shard RANGE 1 ${shards})
+            set_property(TEST ${name}.${shard} APPEND PROPERTY ENVIRONMENT "GTEST_FILTER=-${slow}")
+        endforeach()
+        add_test(NAME ${name}.slow COMMAND ${executable} --gtest_brief=1)
+        set_tests_properties(${name}.slow PROPERTIES ENVIRONMENT "GTEST_FILTER=${slow}" LABELS slow)
+    endif()
 endfunction()
 
 # sparselens_use_traced(NAME...): these scripts use traced pictures (traced, tests/tools/check.sh), which are made before.

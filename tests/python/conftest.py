@@ -7,7 +7,6 @@ import pytest
 import sparselens
 
 
-
 def pytest_terminal_summary(terminalreporter):
     """Prints a line for each skipped test, which tests/skips.sh reads."""
     for report in terminalreporter.stats.get("skipped", []):

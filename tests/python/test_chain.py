@@ -31,6 +31,7 @@ def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
         assert (tmp_path / "tool.exr").read_bytes() != warped.read_bytes()
 
 
+@pytest.mark.slow
 def test_warp_denoised(names, views, tool, tmp_path):
     """The denoiser here is a mean over a square."""
     denoised = []

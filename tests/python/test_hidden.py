@@ -15,6 +15,7 @@ ROWS = ["visible surfaces alone, holes left dark", "... divided by what is known
 
 
 @pytest.mark.skipif(not shutil.which("oiiotool"), reason="needs oiiotool")
+@pytest.mark.slow
 def test_hidden(tmp_path):
     command = [sys.executable, SCRIPT, "fence", "-o", tmp_path, "--bin", BIN, "--size", "240x135", "--rays", "32",
                "--quality", "normal"]

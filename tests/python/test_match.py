@@ -39,6 +39,7 @@ def test_match(wide):
     assert lens["fstop"]["value"] * lens["lens_radius"]["value"] == pytest.approx(ldi.camera.fstop * 0.27)
 
 
+@pytest.mark.slow
 def test_one_value_is_known(wide, tool, tmp_path):
     """Also that dof-match finds the same of the same region."""
     ldi = sparselens.open_ldi(wide)
@@ -53,6 +54,7 @@ def test_one_value_is_known(wide, tool, tmp_path):
         assert lens[name]["value"] == tools[name]["value"] and list(lens[name]["interval"]) == tools[name]["interval"], name
 
 
+@pytest.mark.slow
 def test_sequence(wide):
     ldi = sparselens.open_ldi(wide)
     plates = [plate_of(ldi, focus_distance=distance, lens_radius=0.18) for distance in (2.8, 3.0, 3.2)]

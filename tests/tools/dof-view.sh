@@ -12,7 +12,7 @@ export PYTHONDONTWRITEBYTECODE=1
 # says OPTIONS...: prints the lens facts that a page gets with these options.
 says() { exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from served import served
 with served(*sys.argv[2:]) as server: print(server.picture(settings={})[0])' "$helpers" "$bin/dof-view" ldi.exr "$@"; }
-exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr small.ldi.exr
+exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr small.ldi.exr "${@:2}"
 
 # Another program may ask for pictures: tests/plugins has the tests of that.
 exits 0 bash -c 'echo "{\"ask\":\"facts\",\"file\":\"ldi.exr\"}" | "$1" --pipe 3<>pixels' - "$bin/dof-view"

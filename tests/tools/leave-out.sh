@@ -1,6 +1,7 @@
 #!/bin/bash
 # Work that a stage leaves out because the scene does not need it is never visible: each switch on compared with off,
-# over all test scenes. The bounds are those of lab/results/techniques.md. bash leave-out.sh BIN_DIR
+# over test scenes. The bounds are those of lab/results/techniques.md.
+#   bash leave-out.sh BIN_DIR [--all]     without --all (tools.leave-out-all), three scenes
 . "$(dirname "$0")/check.sh"
 
 decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
@@ -12,7 +13,9 @@ agree() {
     awk -v a="$figure" -v b="$1" 'BEGIN { exit !(a == "inf" || a + 0 >= b) }' || fail "$scene: $4: $figure dB, less than $1"
 }
 
-for scene in element fence grass lamps macro mirror mist planes slant; do
+scenes=(element fence mirror)
+[ "${2:-}" != --all ] || scenes=(element fence grass lamps macro mirror mist planes slant)
+for scene in "${scenes[@]}"; do
     size=256x144
     [ $scene != lamps ] || size=640x360 # its lamps are on whole pixels there
     exits 0 "$bin/dof-trace" $scene --size $size --spp 4 -o $scene
