@@ -52,25 +52,22 @@ def test_exception_in_progress_ends_the_work(clustered):
 def ctrl_c():
     """Sets Python's own Ctrl-C handler, which is missing if SIGINT is ignored, as in background jobs of a shell."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    sparselens.set_limits(threads=1)  # tiles begin one after the other
     yield
+    sparselens.set_limits(threads=0)
     signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.filterwarnings("ignore:the aperture is larger")
 def test_interrupt_ends_the_work(views, ctrl_c):
-    """Acts like Ctrl-C after the work has begun; the thread waits for that, not for a time. Uninterrupted, it takes
-    a quarter of a minute of a core."""
+    """Acts like Ctrl-C after the work has begun; the thread waits for that, not for a time."""
     ldi, said, begun = sparselens.warp(views), [], threading.Event()
 
     def tell(_, percent):
         said.append(percent)
         begun.set()
 
-    def interrupt():
-        begun.wait()
-        _thread.interrupt_main()
-
-    other = threading.Thread(target=interrupt)
+    other = threading.Thread(target=lambda: begun.wait() and _thread.interrupt_main())
     other.start()
     with pytest.raises(KeyboardInterrupt):
         sparselens.gather(ldi, lens_samples=1 << 16, lens_radius=2, focus_distance=1, progress=tell)
@@ -84,7 +81,9 @@ def lock_kept():
     """The interpreter never takes its lock away: another thread runs only if the holder releases it."""
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e6)
+    sparselens.set_limits(threads=1)  # or both tiles begin at once, and progress is at 100
     yield
+    sparselens.set_limits(threads=0)
     sys.setswitchinterval(interval)
 
 
