@@ -7,22 +7,20 @@ function(sparselens_script_test name)
 endfunction()
 
 # sparselens_unit_tests(NAME EXECUTABLE SHARDS [TEST...]): in shards, as a process for each test would cost more than most
-# tests. The TESTs, SUITE.NAME as GoogleTest filters have it, run as NAME.slow, which is labelled `slow`.
+# tests. The test NAME.slow, labelled `slow`, runs each TEST (a pattern of GoogleTest's filters); the shards leave it out.
 function(sparselens_unit_tests name executable shards)
-    foreach(shard RANGE 1 ${shards})
-        math(EXPR index "${shard} - 1")
-        add_test(NAME ${name}.${shard} COMMAND ${executable} --gtest_brief=1)
-        set_tests_properties(${name}.${shard} PROPERTIES
-            ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
-    endforeach()
+    set(environment GTEST_TOTAL_SHARDS=${shards})
     if(ARGN)
         list(JOIN ARGN : slow)
-        foreach(shard RANGE 1 ${shards})
-            set_property(TEST ${name}.${shard} APPEND PROPERTY ENVIRONMENT "GTEST_FILTER=-${slow}")
-        endforeach()
+        list(APPEND environment GTEST_FILTER=-${slow})
         add_test(NAME ${name}.slow COMMAND ${executable} --gtest_brief=1)
         set_tests_properties(${name}.slow PROPERTIES ENVIRONMENT "GTEST_FILTER=${slow}" LABELS slow)
     endif()
+    foreach(shard RANGE 1 ${shards})
+        math(EXPR index "${shard} - 1")
+        add_test(NAME ${name}.${shard} COMMAND ${executable} --gtest_brief=1)
+        set_tests_properties(${name}.${shard} PROPERTIES ENVIRONMENT "${environment};GTEST_SHARD_INDEX=${index}")
+    endforeach()
 endfunction()
 
 # sparselens_use_traced(NAME...): these scripts use traced pictures (traced, tests/tools/check.sh), which are made before.

@@ -3,7 +3,7 @@
 # that tests/allowed-skips.txt does not name. Works from any folder; shares build/ with tools/demo.sh.
 #
 #   tests/run.sh            the tests that everybody runs: five minutes on two cores
-#   tests/run.sh --slow     the others, labelled `slow`: browser, packages, farms, rivals, damaged files
+#   tests/run.sh --slow     the others, labelled `slow`: browser, packages, farms, rivals, damaged files, all scenes
 #   tests/run.sh --all      both
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,6 +1,6 @@
 # The Python module: its tests in pytest, the example of docs/python.md and the script of share/python. Skipped if that
 # Python lacks pytest or numpy.
-#   bash run.sh BIN_DIR MODULE_DIR PYTHON [--slow]     --slow: only the tests marked `slow`, which are left out else
+#   bash run.sh BIN_DIR MODULE_DIR PYTHON [--slow]     --slow: only the tests marked `slow`; without it, all others
 . "$(dirname "$0")/../tools/check.sh"
 python=$3
 export PYTHONPATH=$2 PYTHONDONTWRITEBYTECODE=1 SPARSELENS_BIN=$bin
@@ -12,9 +12,9 @@ done
 
 traced fence 96x54 views
 export SPARSELENS_VIEWS=$scratch/views
-marked=$([ "${4:-}" = --slow ] && echo slow || echo 'not slow')
-"$python" -m pytest -q -p no:cacheprovider -o markers=slow -m "$marked" "$source_dir/tests/python" --basetemp="$scratch/pytest"
-[ "$marked" != slow ] || exit 0
+marked=${4:-not slow}
+"$python" -m pytest -q -p no:cacheprovider -o markers=slow -m "${marked#--}" "$source_dir/tests/python" --basetemp="$scratch/pytest"
+[ "$marked" != --slow ] || exit 0
 
 readme_block python docs/python.md >example.py
 [ -s example.py ] || fail "docs/python.md has no example"

@@ -28,12 +28,9 @@ def test_progress(views, clustered, stage):
 
 
 def test_progress_is_called_here(clustered):
-    here = threading.get_ident()
-    sparselens.gather(sparselens.open_ldi(clustered), progress=lambda *_: check(threading.get_ident() == here))
-
-
-def check(holds):
-    assert holds
+    threads = set()
+    sparselens.gather(sparselens.open_ldi(clustered), progress=lambda *_: threads.add(threading.get_ident()))
+    assert threads == {threading.get_ident()}
 
 
 def test_exception_in_progress_ends_the_work(clustered):
@@ -49,17 +46,23 @@ def test_exception_in_progress_ends_the_work(clustered):
 
 
 @pytest.fixture
+def one_thread():
+    """Two threads begin both tiles of the picture at once, so that progress is at 100 before any is made."""
+    sparselens.set_limits(threads=1)
+    yield
+    sparselens.set_limits(threads=0)
+
+
+@pytest.fixture
 def ctrl_c():
     """Sets Python's own Ctrl-C handler, which is missing if SIGINT is ignored, as in background jobs of a shell."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    sparselens.set_limits(threads=1)  # tiles begin one after the other
     yield
-    sparselens.set_limits(threads=0)
     signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.filterwarnings("ignore:the aperture is larger")
-def test_interrupt_ends_the_work(views, ctrl_c):
+def test_interrupt_ends_the_work(views, one_thread, ctrl_c):
     """Acts like Ctrl-C after the work has begun; the thread waits for that, not for a time."""
     ldi, said, begun = sparselens.warp(views), [], threading.Event()
 
@@ -81,13 +84,11 @@ def lock_kept():
     """The interpreter never takes its lock away: another thread runs only if the holder releases it."""
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e6)
-    sparselens.set_limits(threads=1)  # or both tiles begin at once, and progress is at 100
     yield
-    sparselens.set_limits(threads=0)
     sys.setswitchinterval(interval)
 
 
-def test_others_run_meanwhile(clustered, lock_kept):
+def test_others_run_meanwhile(clustered, one_thread, lock_kept):
     """During gather, not only at its begin or end."""
     ldi, said, seen, started, done = sparselens.open_ldi(clustered), [], [], threading.Event(), threading.Event()
 
