@@ -18,7 +18,7 @@ columns=("${whole[@]}" "${parts[@]}" "${sizes[@]}")
 input() {
     ln -sfn "$2" "$1"
     ln -sfn "$3" "$1.exr"
-    five_views "$1" >"$1.views"
+    five_views "$1" >"$1.words"
 }
 # keep PART NAME MASK...: a reference with NaN, which dof-compare leaves out, where the mask that oiiotool makes is 0.
 keep() { oiiotool "${@:3}" --ch 0,0,0 --subc 1 --powc .5 "$2.exr" --ch R,G,B --add --chnames R,G,B -o "$2:$1.exr"; }
@@ -54,7 +54,7 @@ picture() {
     local TIMEFORMAT=%U words from quality="--quality final"
     # Final quality would take most of an hour for macro and pinecone; other methods have none.
     [[ $4 != --method* && $2 != *.?x && $2 != macro* && $2 != pinecone* ]] || quality=
-    read -ra words <"$2.views"
+    read -ra words <"$2.words"
     from=("$2.ldi.exr")
     : >log
     echo 0 >warp.s
@@ -144,7 +144,7 @@ rm -rf base
 cp -r source/build/bin base
 for of in "${columns[@]%%:*}" "${timed[@]}"; do
     # shellcheck disable=SC2046
-    [[ $of == *-alone ]] || base/ldi-warp $(cat "$of.views") -o - >"$of.ldi.exr" 2>log || { cat log >&2 && exit 1; }
+    [[ $of == *-alone ]] || base/ldi-warp $(cat "$of.words") -o - >"$of.ldi.exr" 2>log || { cat log >&2 && exit 1; }
 done
 head_of "${whole[@]}"
 head_of "${parts[@]/:/, }" >parts.md
