@@ -49,7 +49,7 @@ done
 ln -sfn fence.exr fence:A.exr
 
 # picture BIN INPUT WARP_OPTIONS GATHER_OPTIONS: picture.exr, with user CPU seconds in warp.s and gather.s. If $warps is
-# not set, it takes the LDI that was made with everything on; if the LDI is the same, picture.exr and gather.s too.
+# not set, it takes the LDI that was made with everything on; if it is "only" and the LDI is the same, the picture too.
 picture() {
     local TIMEFORMAT=%U words from quality="--quality final"
     # Final quality would take most of an hour for macro and pinecone; other methods have none.
@@ -64,7 +64,7 @@ picture() {
         # shellcheck disable=SC2086
         { time "$1/ldi-warp" $3 "${words[@]}" -o - >warped.exr 2>>log; } 2>warp.s || { cat log >&2 && return 1; }
         from=(warped.exr)
-        if [ "$1$3$4" != base ] && cmp -s warped.exr "$2.ldi.exr"; then cp "$2.exr.kept" picture.exr && return; fi
+        if [ "$warps" = only ] && cmp -s warped.exr "$2.ldi.exr"; then cp "$2.exr.kept" picture.exr && return; fi
     fi
     # shellcheck disable=SC2086
     { time "$1/dof-gather" "${from[@]}" $quality $4 -o picture.exr 2>>log; } 2>gather.s || { cat log >&2 && return 1; }
@@ -162,7 +162,7 @@ without "the depth of images (\`--optical off\`)" measure base "--optical off" "
 warps=
 without "visibility at every lens point (\`--method selective\`)" measure base "" "--method selective"
 while IFS='|' read -r label file what instead; do
-    [[ $file == src/dof/* ]] && warps= || warps=yes
+    case $file in src/dof/*) warps= ;; src/warp/*) warps=only ;; *) warps=yes ;; esac
     [[ $file == tools/* ]] || without "$label (\`$file\`)" variant "$file" "$what" "$instead" measure source/build/bin "" ""
 done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")
 printf '\nInputs that some techniques were made for:\n\n'
