@@ -163,7 +163,7 @@ warps=
 without "visibility at every lens point (\`--method selective\`)" measure base "" "--method selective"
 while IFS='|' read -r label file what instead; do
     case $file in src/dof/*) warps= ;; src/warp/*) warps=only ;; *) warps=yes ;; esac
-    [[ $file == tools/* ]] || without "$label (\`$file\`)" variant "$file" "$what" "$instead" measure source/build/bin "" ""
+    [[ $file == tools/* ]] || without "$label" variant "$file" "$what" "$instead" measure source/build/bin "" ""
 done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")
 printf '\nInputs that some techniques were made for:\n\n'
 cat parts.md
@@ -196,5 +196,5 @@ sequences() { # LABEL
 printf '\nSix frames of fence at normal quality, seconds:\n\n'
 head_of "\`ldi-warp\`, wall" CPU "\`dof-gather\`, wall" CPU
 while IFS='|' read -r label file what instead; do
-    [[ $file != tools/* ]] || variant "$file" "$what" "$instead" sequences "$label (\`$file\`)"
+    [[ $file != tools/* ]] || variant "$file" "$what" "$instead" sequences "$label"
 done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")
