@@ -1,7 +1,7 @@
 // dof-accumulate: averages dense views over the lens, shifted so that the plane of focus stays in place.
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "harness/tool.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 #include "lab/averaging/accumulate_options.h"
 #include "lab/averaging/averaging.h"
 #include "options/picture_options.h"

@@ -1,6 +1,5 @@
 // dof-stress: runs extreme and numerically stiff cases and prints the error of each, one line per case.
 #include "base/error.h"
-#include "harness/examples.h"
 #include "harness/tool.h"
 #include "lab/stress/stress_case.h"
 

@@ -1,11 +1,9 @@
 // dof-compare: measures how far a picture is from its reference, and how steady a sequence is.
 #include "base/error.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "chain/regions.h"
 #include "harness/commands/frames.h"
-#include "harness/examples.h"
 #include "harness/tool.h"
-#include "harness/words.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "measure/figures_text.h"
@@ -13,8 +11,6 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "measure/temporal_error.h"
-#include "measure/temporal_text.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

@@ -1,14 +1,13 @@
 // dof-finish: combines a gathered picture and a few rays through the same lens into one picture that is nearer to the
 // truth.
 #include "base/error.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "finish/finish_picture.h"
 #include "finish/lens_check.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/camera/camera_read.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_flat.h"
-#include "io/render_samples.h"
+#include "io/exr/exr_header.h"
 #include "options/finish_options.h"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,7 @@
 // dof-gather: computes the picture that a lens takes from a layered depth image.
 #include "chain/devices.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "chain/take_moments.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
 #include "options/gather_options.h"

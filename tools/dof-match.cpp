@@ -1,14 +1,13 @@
 // dof-match: finds the focus distance and the f-stop of a filmed plate.
 #include "base/error.h"
-#include "chain/file_notices.h"
-#include "chain/match_frames.h"
+#include "chain/match_lens.h"
+#include "chain/notices.h"
 #include "harness/commands/frames.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/text_file.h"
-#include "measure/text_table.h"
+#include "measure/figures_text.h"
 #include "options/match_options.h"
 
 #include <CLI/CLI.hpp>

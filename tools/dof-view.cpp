@@ -2,7 +2,6 @@
 // the lens.
 #include "base/error.h"
 #include "harness/commands/frames.h"
-#include "harness/examples.h"
 #include "harness/process.h"
 #include "harness/tool.h"
 #include "options/gather_options.h"

@@ -1,12 +1,9 @@
 // ldi-cluster: merges deep pictures, and reduces the samples in each pixel.
-#include "chain/cluster_ldi.h"
-#include "chain/file_notices.h"
-#include "harness/examples.h"
+#include "chain/make_ldi.h"
+#include "chain/notices.h"
 #include "harness/history.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

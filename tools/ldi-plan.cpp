@@ -1,14 +1,13 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "base/error.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "chain/plan_views.h"
 #include "chain/usd_shot.h"
 #include "harness/commands/named_files.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/cameras_file.h"
 #include "io/files/text_file.h"
 #include "io/moment_files.h"
+#include "io/plan_file.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>

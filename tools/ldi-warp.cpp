@@ -1,8 +1,7 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "chain/devices.h"
-#include "chain/file_notices.h"
 #include "chain/make_ldi.h"
-#include "harness/stats.h"
+#include "chain/notices.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
 #include "options/warp_options.h"

@@ -1,7 +1,6 @@
 #include "lab/averaging/accumulate_options.h"
 
-#include "harness/examples.h"
-#include "harness/words.h"
+#include "harness/tool.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

@@ -4,7 +4,6 @@
 #include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "lab/averaging/lens_view_files.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <optional>

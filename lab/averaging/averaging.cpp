@@ -1,7 +1,7 @@
 #include "lab/averaging/averaging.h"
 
 #include "base/error.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "io/files/memory_limit.h"
 #include "lab/methods/accumulate.h"
 

@@ -1,7 +1,7 @@
 #include "lab/averaging/lens_view_files.h"
 
 #include "base/error.h"
-#include "io/camera/camera_read.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_common.h"
 #include "options/picture_options.h"
 #include "view/view_mapping.h"

@@ -1,5 +1,5 @@
 // Scatter, the conceptual algorithm: each sample is spread over its PSF with the exact kernel. Each destination pixel
-// keeps a list of the fragments that fall into it, sorts it by depth and blends it by the rule of blend.h, with any
+// keeps a list of the fragments that fall into it, sorts it by depth and blends it by the rule of splats.h, with any
 // number of layers. It is slow and obvious, and serves as the reference of the selective gather.
 #pragma once
 

@@ -1,7 +1,7 @@
 #include "lab/reference/find_fillers_slowly.h"
 
 #include "deep/build.h"
-#include "deep/unmixing.h"
+#include "deep/mixed_pixels.h"
 #include "dof/tuning.h"
 
 #include <algorithm>

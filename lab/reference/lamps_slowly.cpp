@@ -1,6 +1,6 @@
 #include "lab/reference/lamps_slowly.h"
 
-#include "base/coverage.h"
+#include "base/light.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lab/reference/find_facets_slowly.h"

@@ -2,8 +2,8 @@
 // that rounding may give.
 #pragma once
 
-#include "deep/holdout.h"
 #include "deep/ldi.h"
+#include "deep/merge.h"
 #include "dof/lens/fillers.h"
 #include "lens/lens_samples.h"
 #include "lens/thin_lens.h"

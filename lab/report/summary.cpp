@@ -2,7 +2,7 @@
 
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"
-#include "measure/text_table.h"
+#include "measure/figures_text.h"
 
 #include <fmt/format.h>
 

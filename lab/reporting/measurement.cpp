@@ -1,7 +1,7 @@
 #include "lab/reporting/measurement.h"
 
+#include "base/light.h"
 #include "base/parallel.h"
-#include "base/tone_map.h"
 #include "chain/regions.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"

@@ -1,6 +1,6 @@
 #include "lab/reporting/options.h"
 
-#include "harness/examples.h"
+#include "harness/tool.h"
 #include "lab/tracing/trace_options.h"
 
 #include <CLI/CLI.hpp>

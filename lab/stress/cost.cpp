@@ -2,7 +2,6 @@
 #include "dof/device/tile_device.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
-#include "dof/lens/lens_tiles.h"
 #include "lab/stress/scenes.h"
 
 #include <algorithm>

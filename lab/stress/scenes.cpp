@@ -1,6 +1,6 @@
 #include "lab/stress/scenes.h"
 
-#include "base/random.h"
+#include "base/numbers.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/reference/lens_gather_reference.h"
 #include "lens/lens_samples.h"

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "base/random.h"
+#include "base/numbers.h"
 #include "deep/checks/pose_check.h"
 #include "deep/flatten.h"
 #include "lab/methods/accumulate.h"

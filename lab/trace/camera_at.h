@@ -3,7 +3,7 @@
 
 #include "base/image.h"
 #include "lab/trace/motion.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 namespace sparselens::lab {
 

@@ -4,7 +4,7 @@
 #include "lab/trace/look_rays.h"
 #include "lab/trace/sampling.h"
 #include "lens/lens_points.h"
-#include "shutter/shutter_curve.h"
+#include "shutter/shutter_mean.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
-#include "deep/highlight_gain.h"
+#include "deep/recolor.h"
 #include "lab/trace/shading.h"
 #include "lens/lens_looks.h"
 #include "lens/thin_lens.h"
@@ -21,7 +21,7 @@ struct RenderSettings {
     Light light = Light::sun;
     Motion camera = {};            // of the camera, in world space, which is its space at rest
     Exposure exposure = {};        // depths are those in the middle of it
-    double rolling = 1;            // the duration of a rolling shutter (shutter/shutter_curve.h)
+    double rolling = 1;            // the duration of a rolling shutter (shutter/shutter_mean.h)
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
     std::uint32_t stream = 0;      // of the reference, below 2^26: different streams share no noise
     LensLooks looks = {};          // of the reference

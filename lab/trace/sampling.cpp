@@ -1,6 +1,6 @@
 #include "lab/trace/sampling.h"
 
-#include "base/random.h"
+#include "base/numbers.h"
 
 #include <algorithm>
 #include <bit>

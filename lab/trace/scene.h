@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/trace/motion.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <Imath/ImathColor.h>
 #include <Imath/ImathVec.h>

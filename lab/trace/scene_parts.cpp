@@ -1,7 +1,7 @@
 #include "lab/trace/scene_parts.h"
 
 #include "lab/trace/materials.h"
-#include "lens/f_number.h"
+#include "lens/thin_lens.h"
 
 namespace sparselens::lab {
 

@@ -1,11 +1,10 @@
 #include "lab/tracing/trace_options.h"
 
 #include "base/error.h"
-#include "harness/examples.h"
-#include "harness/words.h"
+#include "harness/tool.h"
 #include "lab/trace/scenes.h"
-#include "shutter/shutter_curve.h"
-#include "view/resolve_looks.h"
+#include "shutter/shutter_mean.h"
+#include "view/resolve_lens.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "base/image.h"
 #include "harness/commands/cli.h"
 #include "lab/trace/render.h"
-#include "options/parameter_options.h"
+#include "options/picture_options.h"
 
 #include <string>
 #include <vector>

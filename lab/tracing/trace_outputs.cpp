@@ -1,11 +1,11 @@
 #include "lab/tracing/trace_outputs.h"
 
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
+#include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
 #include "io/files/text_file.h"
-#include "io/render_samples.h"
 #include "lab/trace/camera_at.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "harness/tool.h"
 #include "io/moment_files.h"
 #include "lab/trace/render.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <functional>
 #include <optional>

@@ -10,9 +10,18 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
 #include <cstddef>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -57,4 +66,73 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
     });
 }
 
+// Makes pieces on all threads, and takes them one by one in their order, for example a file that is read a few rows at
+// a time.
+//
+// Each thread makes at most one piece at a time, and at most as many finished pieces wait to be taken, so the pieces
+// never need all their memory at once.
+
+// Calls take(i, make(i)) for every i in [0, count). Any thread may call make(). take() is called for 0, 1, 2 ..., by
+// one thread at a time. If calls throw, the caller gets the exception of the least i, whatever the number of threads,
+// and no later piece is taken. `most_at_once` (> 0) limits the pieces that are made side by side, however many threads
+// there are.
+template <typename Make, typename Take>
+void in_order(std::size_t count, const Make &make, const Take &take,
+              std::size_t most_at_once = ~std::size_t{0}) {
+    using Piece = decltype(make(std::size_t{0}));
+    struct Made {
+        std::optional<Piece> piece;
+        std::exception_ptr failure;
+    };
+    std::atomic<std::size_t> next = 0;
+    std::mutex taking; // guards the variables below
+    std::condition_variable moved;
+    std::map<std::size_t, Made> waiting;
+    std::size_t taken = 0;
+    std::exception_ptr failure;
+    const auto take_in_order = [&](std::size_t i, Made made) {
+        const std::lock_guard lock(taking);
+        waiting.emplace(i, std::move(made));
+        for (auto first = waiting.begin(); !failure && first != waiting.end() && first->first == taken;
+             first = waiting.erase(first), ++taken)
+            try {
+                if (first->second.failure) std::rethrow_exception(first->second.failure);
+                tbb::this_task_arena::isolate([&] { take(taken, std::move(*first->second.piece)); });
+            } catch (...) {
+                failure = std::current_exception();
+                next = count;
+            }
+        moved.notify_all();
+    };
+    const std::size_t threads = std::min(std::size_t(tbb::this_task_arena::max_concurrency()), most_at_once);
+    // make() and take() run isolated; otherwise a loop in them would begin to make other pieces while it waits for its
+    // own. Waiting cannot deadlock: pieces begin in their order, so the piece that all wait for is being made.
+    const auto wait_for_turn = [&](std::size_t i) {
+        std::unique_lock lock(taking);
+        moved.wait(lock, [&] { return i < taken + 2 * threads || failure; });
+    };
+    parallel_for(threads < count ? threads : count, [&](std::size_t) {
+        for (std::size_t i = next++; i < count; i = next++) {
+            wait_for_turn(i);
+            Made made;
+            try {
+                tbb::this_task_arena::isolate([&] { made.piece.emplace(make(i)); });
+            } catch (...) {
+                made.failure = std::current_exception();
+            }
+            take_in_order(i, std::move(made));
+        }
+    });
+    if (failure) std::rethrow_exception(failure);
+}
+
 } // namespace sparselens
+
+// Compiles loops over all pixels for several processors. No version contracts products and sums, so all give the same
+// bits. It is off under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has started.
+
+#ifdef __SANITIZE_THREAD__
+#define FOR_PROCESSORS
+#else
+#define FOR_PROCESSORS [[gnu::target_clones("default,avx2")]]
+#endif

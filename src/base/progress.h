@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 
 namespace sparselens {
@@ -31,6 +32,16 @@ private:
     std::string stage_;
     std::size_t total_ = 0;
     std::atomic<std::size_t> done_ = 0;
+};
+
+// The work that a device did, and the work that it left to the CPU.
+
+// The work since the report was last taken. The device chooses the unit of work: tiles or rows.
+struct DeviceReport {
+    std::size_t on_device = 0;
+    std::size_t uploaded = 0;                       // bytes
+    std::map<std::string, std::size_t> on_cpu = {}; // work left to the CPU, by its reason in a few words
+    std::string failure = {};                       // not empty: how the device failed; the CPU did the rest
 };
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
 #include "chain/channels.h"
 
-#include "base/channel_names.h"
+#include "base/channel_kind.h"
 #include "base/error.h"
 #include "deep/channel_alpha.h"
 

@@ -1,17 +1,29 @@
 #include "chain/colours.h"
 
 #include "base/error.h"
-#include "deep/packed_view.h"
+#include "chain/make_ldi.h"
+#include "chain/notices.h"
+#include "deep/recolor.h"
+#include "deep/sanitize.h"
+#include "deep/view_samples.h"
+#include "io/camera/camera_header.h"
+#include "io/display/colour.h"
 #include "io/display/shown_picture.h"
-#include "io/display/stated_space.h"
+#include "io/exr/exr_common.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
+#include "lens/thin_lens.h"
 
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace sparselens {
 
@@ -157,6 +169,154 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
     write_shown_picture(path, image);
     tell({NoticeKind::displayed, path});
     return 0;
+}
+
+namespace {
+
+// Drops everything else, such as depths at infinity.
+Image light_and_coverage(const Image &image) {
+    std::vector<Channel> kept;
+    std::ranges::copy_if(image.channels, std::back_inserter(kept), is_light);
+    Image result(image.windows, kept);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        std::ranges::copy(image.plane(find_channel(image.channels, kept[k].name)), result.plane(k).begin());
+    return result;
+}
+
+} // namespace
+
+FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell) {
+    const std::string name = display_name(path);
+    // Every pixel is placed in front of the camera, so that its values are repaired like those of a view.
+    View view{name, light_and_coverage(file.image), {}};
+    view.z.assign(view.image.windows.pixels(), 1);
+    const InvalidValues bad = sanitize(view);
+    tell_reading(tell, name, file.notes, file.warnings);
+    tell_invalid_values(tell, name, bad);
+    FlatLight light{name, std::move(view.image), std::move(file.header)};
+    if (colour) light.header = to_linear(tell, *colour, path, light.header, light.image);
+    return light;
+}
+
+PictureChoice without_depth(PictureChoice choice) {
+    choice.depth.clear();
+    choice.depth_file.clear();
+    return choice;
+}
+
+FlatLight open_light(const std::string &path, const PictureChoice &choice, const ColourOptions *colour,
+                     const Tell &tell) {
+    tell({NoticeKind::reading, path});
+    return light_of(read_flat_exr(path, without_depth(choice)), path, colour, tell);
+}
+
+namespace {
+
+void check_count(std::size_t denoised, std::size_t views) {
+    if (denoised != views)
+        throw UsageError(fmt::format(
+            "`denoised`: there are {} of them for {} views; give one for each, in the order of the views",
+            denoised, views));
+}
+
+// The pictures from files, then those in memory, whose colours are linear.
+std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell &tell) {
+    const ColourOptions *colour = request.colour ? &*request.colour : nullptr;
+    std::vector<DenoisedPicture> pictures;
+    for (const std::string &path : request.denoised) {
+        FlatLight light = open_light(path, request.depth.picture, colour, tell);
+        pictures.push_back({path, std::move(light.image)});
+    }
+    for (const DenoisedPicture &picture : request.denoised_pictures) {
+        FlatFile file;
+        file.image = picture.image;
+        pictures.push_back({picture.name, light_of(std::move(file), picture.name, nullptr, tell).image});
+    }
+    return pictures;
+}
+
+} // namespace
+
+void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vector<PackedView> &views,
+                   const Tell &tell) {
+    std::vector<DenoisedPicture> denoised = pictures_of(request, tell);
+    if (!denoised.empty()) check_count(denoised.size(), views.size());
+    if (!request.noisy.empty())
+        for (PackedView &view : views) denoised.push_back(part_denoised(view, request.noisy));
+    if (!denoised.empty())
+        take_denoised(views, denoised, by.focal_px, perceptive_scale(by.radius, by.focal_px));
+}
+
+namespace {
+
+void require_colours(std::span<const Channel> channels, const std::string &name) {
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (is_recolored(channels, k)) return;
+    throw Error(name + ": has no colours; give a picture with R, G and B (`recolor`)");
+}
+
+void require_one_frame(const OpenedLdi &ldi, const FlatLight &beauty) {
+    const Windows &deep = ldi.ldi.windows, &flat = beauty.image.windows;
+    if (deep.display != flat.display)
+        throw Error(
+            fmt::format("{}: its display window differs from that of {}; give the picture of the same "
+                        "frame and size (`recolor`)",
+                        beauty.name, ldi.name));
+    if (deep.pixel_aspect != flat.pixel_aspect)
+        throw Error(fmt::format("{}: its pixel aspect ratio is {:g}, that of {} is {:g}; give the picture of "
+                                "the same camera (`recolor`)",
+                                beauty.name, flat.pixel_aspect, ldi.name, deep.pixel_aspect));
+    if (!deep.data.intersects(flat.data))
+        throw Error(
+            fmt::format("{}: its data window has no pixel in common with that of {}; give the picture "
+                        "of the same frame (`recolor`)",
+                        beauty.name, ldi.name));
+}
+
+// The names that channels get in files: those of light as in the beauty, the others as in the deep file.
+KeptNames kept_names(const std::vector<Channel> &channels, const Imf::Header &deep, const Imf::Header &flat) {
+    const std::vector<Channel> of_deep = by_kept_names(channels, deep),
+                               of_flat = by_kept_names(channels, flat);
+    KeptNames kept;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        const std::string &name = (is_recolored(channels, k) ? of_flat : of_deep)[k].name;
+        if (name != channels[k].name) kept[channels[k].name] = name;
+    }
+    return kept;
+}
+
+void tell_recolored(const Recolored &made, const std::string &deep, const FlatLight &beauty,
+                    const Tell &tell) {
+    if (made.differ > 0)
+        tell({NoticeKind::coverage_differs, beauty.name, {deep, made.differ, beauty.image.windows.pixels()}});
+    if (made.beyond > 0) tell({NoticeKind::without_colours, beauty.name, {deep, made.beyond}});
+    if (made.infinite > 0) tell({NoticeKind::light_at_infinity, beauty.name, {made.infinite}});
+}
+
+} // namespace
+
+void recolor_by(FlatFile file, const std::string &path, const ColourOptions *colour, OpenedLdi &ldi,
+                const Tell &tell) {
+    const FlatLight beauty = light_of(std::move(file), path, colour, tell);
+    require_colours(beauty.image.channels, beauty.name);
+    require_one_frame(ldi, beauty);
+    Recolored made = recolor(std::move(ldi.ldi), beauty.image);
+    ldi.ldi = std::move(made.ldi);
+    ldi.samples_read = ldi.ldi.samples();
+    const KeptNames names = kept_names(ldi.ldi.channels, ldi.header, beauty.header);
+    ldi.header = with_space_of(beauty.header, ldi.header);
+    set_kept_names(ldi.header, names);
+    ldi.header.dataWindow() = ldi.ldi.windows.data;
+    write_picture_window(ldi.header, ldi.ldi.windows.data);
+    tell_recolored(made, ldi.name, beauty, tell);
+    tell_layers(tell, beauty.name, ldi.ldi.channels);
+}
+
+void recolor_by(const std::string &path, const PictureChoice &choice, const ColourOptions &colour,
+                OpenedLdi &ldi, const Tell &tell) {
+    if (path.empty()) return;
+    tell({NoticeKind::reading, path});
+    recolor_by(read_flat_exr(path, without_depth(choice)), path, &colour, ldi, tell);
 }
 
 } // namespace sparselens

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "../base/subpixels.h"
-#include "../deep/highlight_gain.h"
+#include "../deep/recolor.h"
 #include "../io/open_ldi.h"
 #include "../lens/lens_looks.h"
+#include "colours.h"
 
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace sparselens {
 
@@ -28,7 +32,7 @@ struct WindowOptions {
 
 // The sub-pixels, from the options or the file. Throws UsageError if the display window would cut a block of
 // sub-pixels, or if the views were warped for so much larger pixels that the LDI would be different
-// (kernels/photo_rules.h).
+// (kernels/warp_rules.h).
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
 
 // The pixels to gather, the needed ones among them, and the picture that they become, by `subpixels`. A proxy consists
@@ -74,5 +78,42 @@ Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &ho
 
 // Brightens the highlights of the LDI to gather. `in` itself stays as it is.
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by);
+
+// Opens the LDI of a picture and keeps the last one, so that pulling focus over one file reads it only once.
+
+// A file with samples, and what to read from it.
+struct LdiRequest {
+    std::string input = {}, recolor = {}; // `recolor`: the flat picture with its colours, or ""
+    std::string channels = {};            // comma-separated (channels.h); empty: all
+    LensValues lens = {};                 // override the file's values
+    DepthOptions depth = {};
+    ColourOptions colour = {};
+};
+
+class LdiCache {
+public:
+    // Opens, recolours and makes linear the requested file, if the last file was another, was read with other options,
+    // or has been used up since. Channels that are not requested are left out. The camera is that of the file alone,
+    // without `lens`. Earlier results become invalid.
+    OpenedLdi &load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose = {});
+
+    // The result of the last load(), whether it read the file, and which of its channels were left out.
+    const OpenedLdi &last() const { return *last_; }
+    bool read_now() const { return read_now_; }
+    const std::vector<std::string> &channels_left_out() const { return channels_left_out_; }
+
+private:
+    // Everything that the samples depend on. The focal length is part of it, because it makes ray lengths planar.
+    using Key =
+        std::tuple<std::string, std::string, DepthMeaning, std::optional<double>, std::optional<double>,
+                   std::string, std::string, std::string, std::optional<double>, std::optional<double>,
+                   std::string, std::string, std::string, std::string, bool>;
+    bool holds(const Key &key) const;
+
+    Key key_;
+    std::optional<OpenedLdi> last_;
+    bool read_now_ = false;
+    std::vector<std::string> channels_left_out_;
+};
 
 } // namespace sparselens

@@ -1,10 +1,12 @@
-// Makes an LDI from views: takes a request as a user gives it, returns the LDI and its header, and sends notices.
+// Makes an LDI: from views, or with fewer samples from deep pictures. Takes a request as a user gives it, returns the
+// LDI and its header, and sends notices.
 #pragma once
 
 #include "chain/colours.h"
 #include "chain/notices.h"
 #include "chain/stated_camera.h"
-#include "deep/packed_view.h"
+#include "deep/cluster.h"
+#include "deep/view_samples.h"
 #include "denoised/denoised_views.h"
 #include "io/open_packed_view.h"
 #include "warp/warp.h"
@@ -71,5 +73,29 @@ MadeLdi make_ldi(std::span<const ViewInMemory> views, const LdiFromViews &reques
 // the number of files differs from that of the pictures.
 std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
                                              std::size_t pictures);
+
+struct ClusterRequest {
+    std::vector<std::string> inputs = {}, depth_files = {}; // files; the latter one per input or none
+    std::string recolor = {};                               // a flat picture with their colours; or empty
+    DepthOptions depth = {};
+    ColourOptions colour = {};        // how the flat picture's colours are read
+    const FlatFile *beauty = nullptr; // the same picture in memory, with linear colours
+    LensValues lens = {};             // override the files' values
+    std::optional<int> supersample = {};
+    std::optional<double> tolerance = {}; // pixels of CoC; default 0.25 if the lens is known
+    int layers = 0;                       // see ClusterOptions
+};
+
+struct ClusteredLdi : Clustered {
+    Imf::Header header = {};
+    Camera camera = {};
+    std::size_t samples_read = 0, invisible = 0; // see OpenedLdi
+};
+
+// Takes the files of the request, or LDIs in memory. Name, header and camera are those of the first. Throws Error,
+// naming the file, if its display window, its sub-pixels or its focal length differ from those of the first.
+ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Tell &tell);
+ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,
+                         Progress &progress, const Tell &tell);
 
 } // namespace sparselens

@@ -1,10 +1,14 @@
-// The pictures that match_lens() compares: a plate, and what an LDI shows through a lens, both reduced.
+// The pictures that match_lens() compares: a plate, and what an LDI shows through a lens, both reduced; and the
+// values of the lens that it reports.
 #pragma once
 
 #include "chain/match_lens.h"
 #include "dof/gather_picture.h"
+#include "match/blocks.h"
 #include "match/lens_search.h"
 
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -60,5 +64,26 @@ BlurGuess guess_near(const MatchedLens &near, const Reduced &in);
 
 // The pixels of both; throws UsageError if there are none.
 Imath::Box2i common_pixels(const Imath::Box2i &a, const Imath::Box2i &b);
+
+// The values of a matched lens, from what the search found, and the ranges that should hold the true ones; and why they
+// may be wrong.
+inline constexpr double certain = 1.645; // standard deviations to each side that hold 90 %
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The distance whose reciprocal this is; infinite if that is not above 0.
+double distance_at(double inverse);
+
+void set_values(MatchedLens &of, const Match &match, const Reduced &in, const LensFit &fit);
+
+// The f-number times the radius of the lens, scene units, if the camera tells it.
+std::optional<double> stops_by_radius(const Camera &camera);
+
+// The ranges, from the values and their deviations; and the f-stop.
+void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius);
+
+// Why the values that a search found are not those of the plate's lens, and what to do; empty: there is no doubt.
+// `is_ambiguous`: another lens fits as well.
+std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &fit, const Evidence &evidence,
+                     bool is_ambiguous);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// How the table of parameters is written: what a row says, and where its value goes. For chain/*_parameters.cpp alone.
+// How the table of parameters is written: what a row says, and where its value goes. For parameter_table.cpp alone.
 #pragma once
 
 #include "parameters.h"

@@ -3,7 +3,7 @@
 // their own tables (view/resolve_lens.h, looks/table.h).
 #pragma once
 
-#include "../looks/number_parameter.h"
+#include "looks/look.h"
 #include "take_picture.h"
 
 #include <functional>

@@ -1,13 +1,13 @@
 #include "chain/plan_views.h"
 
-#include "chain/file_notices.h"
-#include "chain/same_shutter.h"
+#include "chain/notices.h"
+#include "chain/take_moments.h"
 #include "deep/checks/view_warnings.h"
-#include "finish/divide_rays.h"
+#include "io/exr/exr_header.h"
 #include "io/moment_files.h"
-#include "io/render_samples.h"
 #include "plan/noise.h"
-#include "view/camera_motion.h"
+#include "plan/plan.h"
+#include "view/view_mapping.h"
 
 #include <algorithm>
 #include <numeric>

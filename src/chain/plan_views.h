@@ -4,9 +4,9 @@
 #include "chain/notices.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
-#include "plan/moments_needed.h"
+#include "plan/block_motion.h"
+#include "plan/disocclusion.h"
 #include "plan/plan.h"
-#include "plan/rectangles.h"
 
 #include <cstddef>
 #include <optional>
@@ -19,12 +19,12 @@ struct PlannedViews {
     Camera camera; // of the centre view, with the lens and the sub-pixels of the plan
 };
 
-// `lens` and `supersample` override the view's values. `rays`: all rays of a pixel, to divide (divide_rays.h).
+// `lens` and `supersample` override the view's values. `rays`: all rays of a pixel, to divide (plan.h).
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, std::optional<int> rays, Progress &progress,
                         const Tell &tell);
 
-// Tells from the centre views of a shutter's moments how many moments it needs (plan/moments_needed.h). `first` and
+// Tells from the centre views of a shutter's moments how many moments it needs (plan/block_motion.h). `first` and
 // `last` are the first and the last of so many moments, at least 2, with the lens of the plan. The camera's motion
 // follows from their matrices, if they have them; else all motion is found in the pictures. Empty if the pictures do
 // not tell. Throws Error, naming both files, if their sizes differ.

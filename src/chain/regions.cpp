@@ -1,8 +1,8 @@
 #include "chain/regions.h"
 
 #include "base/error.h"
-#include "chain/file_notices.h"
-#include "deep/front_samples.h"
+#include "chain/notices.h"
+#include "deep/flatten.h"
 #include "deep/proxy.h"
 #include "measure/regions.h"
 

@@ -3,14 +3,17 @@
 #include "base/error.h"
 #include "chain/channels.h"
 #include "chain/devices.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "chain/parameters.h"
-#include "deep/front_samples.h"
+#include "deep/flatten.h"
 #include "dof/border_reach.h"
 #include "dof/false_colour.h"
 #include "dof/gather_rows.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
+#include "io/exr/exr_header.h"
+#include "view/resolve_lens.h"
 
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <string_view>
@@ -273,6 +276,29 @@ TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &requ
 TakenPicture describe_picture(LdiCache &cache, const PictureRequest &request, const PictureWork &work) {
     if (request.show != Show::picture) return take_picture(cache, true, request, work);
     return Taking(cache.load(request, work.tell), nullptr, request, work).without_values();
+}
+
+LensFile LooksReader::read(const GivenLooks &given, std::optional<double> fstop) {
+    if (!said_ || lens_file_ != given.lens_file || aperture_file_ != given.aperture_file || fstop_ != fstop) {
+        said_ = read_looks({{}, given.lens_file, given.aperture_file}, fstop);
+        lens_file_ = given.lens_file;
+        aperture_file_ = given.aperture_file;
+        fstop_ = fstop;
+    }
+    LensFile looks = *said_;
+    looks.values = look_values_over(given.values, looks.values);
+    return looks;
+}
+
+LensLooks picture_looks(const LensFile &given, Camera &camera, Imf::Header &header, const ThinLens &lens,
+                        const Windows &windows) {
+    camera.looks = look_values_over(given.values, camera.looks);
+    if (!given.name.empty()) set_attribute(header, "lensModel", Imf::StringAttribute(given.name));
+    return resolve_looks(camera.looks, camera, lens, windows);
+}
+
+bool shape_aperture(const LookValues &looks) {
+    return looks.blades.value_or(0) != 0 || looks.squeeze.value_or(1) != 1;
 }
 
 } // namespace sparselens

@@ -3,12 +3,17 @@
 // proxies, holdouts, channels, the looks of the lens, what the method leaves out, and what the views did not see.
 #pragma once
 
+#include "../base/image.h"
 #include "../dof/gather_picture.h"
-#include "../dof/lens/lens_tiles.h"
+#include "../dof/lens/lens_gather.h"
+#include "../io/lens_file.h"
+#include "../lens/lens_looks.h"
+#include "../lens/thin_lens.h"
+#include "../view/view.h"
 #include "gather_windows.h"
-#include "ldi_cache.h"
 #include "notices.h"
-#include "picture_looks.h"
+
+#include <ImfHeader.h>
 
 #include <cstddef>
 #include <functional>
@@ -16,6 +21,27 @@
 #include <string>
 
 namespace sparselens {
+
+// The looks of the lens that takes a picture, and the picture's header that records them.
+
+// Calls read_looks() (io/lens_file.h) and keeps the contents of the last files, because one of them may be a pipe.
+class LooksReader {
+public:
+    LensFile read(const GivenLooks &given, std::optional<double> fstop);
+
+private:
+    std::string lens_file_, aperture_file_;
+    std::optional<double> fstop_;
+    std::optional<LensFile> said_;
+};
+
+// The given looks; where none are given, those of the camera. The camera then gets them, and the header names the lens.
+// `lens` is that of the picture. Throws as resolve_looks() does.
+LensLooks picture_looks(const LensFile &given, Camera &camera, Imf::Header &header, const ThinLens &lens,
+                        const Windows &windows);
+
+// Whether a method that treats the aperture as round would ignore some of these looks.
+bool shape_aperture(const LookValues &looks);
 
 struct GatherDevice; // chain/devices.h
 
@@ -34,8 +60,8 @@ struct PictureRequest : LdiRequest {
     Show show = Show::picture;
     bool front_depth = false;       // also return the depth of the front samples
     std::string device = "cpu";     // as for choose_device() of gpu/device_list.h
-    std::string shutter_curve = {}; // for take_moments(), as in io/shutter_file.h; empty: a box
-    double rolling_shutter = 1;     // for take_moments(): its duration (shutter/shutter_curve.h)
+    std::string shutter_curve = {}; // for take_moments(), as in io/moment_files.h; empty: a box
+    double rolling_shutter = 1;     // for take_moments(): its duration (shutter/shutter_mean.h)
 };
 
 // The false colours of an LDI for that lens, for coc, focus and layers.

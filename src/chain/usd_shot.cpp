@@ -1,7 +1,7 @@
 #include "chain/usd_shot.h"
 
 #include "base/error.h"
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 #include "io/usd/usd_transform.h"
 #include "lens/lens_points.h"
 

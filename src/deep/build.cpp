@@ -1,8 +1,7 @@
 #include "deep/build.h"
 
-#include "base/coverage.h"
+#include "base/light.h"
 #include "base/parallel.h"
-#include "deep/merge_values.h"
 
 #include <algorithm>
 #include <cmath>

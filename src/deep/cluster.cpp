@@ -1,9 +1,9 @@
 #include "deep/cluster.h"
 
-#include "base/coverage.h"
+#include "base/light.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
-#include "lens/perceptive_depth.h"
+#include "lens/thin_lens.h"
 
 #include <algorithm>
 #include <cmath>

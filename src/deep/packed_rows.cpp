@@ -1,7 +1,7 @@
 #include "deep/packed_rows.h"
 
+#include "base/image.h"
 #include "base/parallel.h"
-#include "base/plane.h"
 
 #include <algorithm>
 #include <bit>

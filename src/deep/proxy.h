@@ -1,6 +1,8 @@
-// Makes a small LDI from a large one, for quick previews, and a large one from a small one.
+// LDIs of other sizes: a small one for quick previews, a large one from it, and one with padding around it.
 #pragma once
 
+#include "../lens/lens_looks.h"
+#include "../lens/thin_lens.h"
 #include "ldi.h"
 
 #include <span>
@@ -29,5 +31,12 @@ Ldi proxy(const Ldi &ldi, int factor, const ProxyFor &by = {});
 // The LDI at `factor` times its size: each pixel is repeated across and down. Samples lose their positions in the
 // pixel.
 Ldi enlarged(const Ldi &ldi, int factor);
+
+// The LDI with its data window grown to contain `data`; the new pixels are empty.
+Ldi padded(Ldi ldi, const Imath::Box2i &data);
+
+// The pixels of the display window over which a lens of these looks spreads samples, each as far as its own light
+// reaches (lens/psf.h); a reach of less than half a pixel does not count. Empty if there are no such pixels.
+Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
 } // namespace sparselens

@@ -6,7 +6,7 @@
 //   ldi.weight, ldi.solid   within 1/32 of themselves
 //   colours                 within 1/512 of themselves, a step that is finer than the noise of a render
 //
-// Coverage, data, ids and Cryptomattes stay as they are, and so does the order of the depths of a pixel (order.h).
+// Coverage, data, ids and Cryptomattes stay as they are, and so does the order of the depths of a pixel (tidy.h).
 // "Pixels" are the picture's.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace sparselens {
 
-// `scale`: perceptive depth is scale / z, in pixels of the picture (lens/perceptive_depth.h); 0: depths stay as they
+// `scale`: perceptive depth is scale / z, in pixels of the picture (lens/thin_lens.h); 0: depths stay as they
 // are.
 void round_for_lens(Ldi &ldi, double scale);
 

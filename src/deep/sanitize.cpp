@@ -1,7 +1,7 @@
 #include "deep/sanitize.h"
 
-#include "base/coverage.h"
 #include "base/error.h"
+#include "base/light.h"
 #include "base/parallel.h"
 #include "deep/channel_alpha.h"
 
@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace sparselens {
 
@@ -43,7 +44,7 @@ bool all_of(std::span<const float> values, const Good &good) {
     return all;
 }
 
-constexpr auto is_light = [](float v) { return std::abs(v) <= 1e34f; };
+constexpr auto is_radiance = [](float v) { return std::abs(v) <= 1e34f; };
 constexpr auto is_coverage = [](float v) { return v >= 0 && v <= 1; };
 constexpr auto is_depth = [](float z) { return z >= smallest_depth; };
 
@@ -58,7 +59,7 @@ public:
         if (!all_of(s_.z, is_depth)) repair_depths();
         hide_uncovered();
         for (std::size_t k = 0; k < s_.values.size(); ++k)
-            if (!covers(k) && !holds_ids(s_.channels[k]) && !all_of(s_.values[k], is_light))
+            if (!covers(k) && !holds_ids(s_.channels[k]) && !all_of(s_.values[k], is_radiance))
                 repair_colours(k);
         return found_;
     }
@@ -178,10 +179,10 @@ void Repair::repair_colours(std::size_t channel) {
     const std::span<float> values = s_.values[channel];
     Changes changes;
     for_each_sample([&](std::size_t pixel, std::uint64_t i) {
-        if (is_light(values[i])) return;
+        if (is_radiance(values[i])) return;
         double light = 0, coverage = 0;
         for_each_neighbour(pixel, i, [&](std::uint64_t n) {
-            if (!is_light(values[n])) return;
+            if (!is_radiance(values[n])) return;
             light += values[n];
             coverage += alpha(n);
         });
@@ -248,6 +249,27 @@ InvalidValues sanitize(View &view) {
     for (std::size_t k = 0; k < view.image.channels.size(); ++k)
         samples.values.push_back(view.image.plane(k));
     return Repair(samples, view.name).run();
+}
+
+namespace {
+
+std::size_t coverage_for(std::span<const Channel> channels, std::size_t k) {
+    const std::string &name = channels[k].name;
+    const std::size_t own = find_channel(channels, name.substr(0, name.rfind('.') + 1) + "A");
+    return own != npos ? own : coverage_of(channels, k);
+}
+
+} // namespace
+
+void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes) {
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        if (!is_light(channels[k]) || colour_part(channels[k]) == ColourPart::coverage) continue;
+        const std::size_t by = coverage_for(channels, k);
+        if (by == npos || by == k || coverage_of(channels, k) == k) continue;
+        parallel_ranges(planes[k].size(), 65536, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) planes[k][i] *= planes[by][i];
+        });
+    }
 }
 
 } // namespace sparselens

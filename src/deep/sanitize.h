@@ -16,10 +16,12 @@
 // infinity. "Around" are the eight neighbours; in a deep picture, their samples that are nearest in depth.
 #pragma once
 
+#include "../base/image.h"
 #include "../view/view.h"
 #include "ldi.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 namespace sparselens {
@@ -37,5 +39,11 @@ struct InvalidValues {
 // half of the covered samples or more have no depth above 0, because that indicates another convention of depth.
 InvalidValues sanitize(Ldi &ldi, const std::string &name);
 InvalidValues sanitize(View &view);
+
+// Multiplies colours by their coverage, if a file has them unpremultiplied ("straight").
+
+// Multiplies every channel of light except coverage, by the A of its layer if the layer has one, otherwise by the
+// channel's coverage (channel_alpha.h). A channel without coverage stays as it is.
+void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes);
 
 } // namespace sparselens

@@ -4,8 +4,9 @@
 // holds one sample, as in a flat view.
 #pragma once
 
-#include "base/plane.h"
+#include "base/image.h"
 #include "deep/build.h"
+#include "view/lens_views.h"
 #include "view/view.h"
 
 #include <bit>
@@ -139,5 +140,29 @@ inline float alpha_at(const ViewSamples &view, std::size_t alpha_channel, std::u
 
 // Appends a weighted sum of samples of the view to the last pixel of `out`.
 void append(Ldi &out, const ViewSamples &from, float z, float weight, std::span<const Term> terms);
+
+// A view whose pixels are held as packed samples. The checks and the warp work on it. Most of the
+// memory of a warp is its five views, and packed ones take half the memory of pictures.
+
+struct PackedView {
+    std::string name; // for messages
+    ViewSamples samples;
+    Imath::V2d position{0, 0}; // as in View
+    Framing framing = {};
+
+    PackedView(const View &view); // refers to the pixels of the view, which must outlive this
+    PackedView(View &&view);      // takes and packs them
+    // A deep picture, tidy. If no pixel holds more than one point, it becomes a flat view.
+    PackedView(std::string name, Ldi &&samples);
+};
+
+std::vector<PackedView> referring_to(std::span<const View> views);
+std::vector<PackedView> packed(std::vector<View> &&views); // one at a time
+
+// The view as a picture. The view must not be deep, and must still have the samples that it was made with.
+View unpacked(const PackedView &view);
+
+// Like place_views() of view/lens_views.h.
+Camera place_views(std::span<PackedView> views, std::span<const StatedView> stated);
 
 } // namespace sparselens

@@ -3,8 +3,8 @@
 #include "deep/build.h"
 #include "dof/lens/beyond/border.h"
 #include "dof/tuning.h"
-#include "lens/lamp.h"
-#include "lens/light_reach.h"
+#include "lens/lamp_spread.h"
+#include "lens/psf.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,7 @@ struct BorderReach {
 
 // Uses the samples of at least half coverage in the outermost pixels of the display window. The result is 0 if the data
 // window does not fill the display window, because then nothing was cut off. Light stands out if it is more than four
-// times as bright as 31 of 32 samples of the border. The looks also decide how far light reaches (lens/light_reach.h).
+// times as bright as 31 of 32 samples of the border. The looks also decide how far light reaches (lens/psf.h).
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
 // Returns an LDI with only the outermost pixels of the display window, or of `window`.

@@ -1,7 +1,6 @@
 #include "dof/false_colour.h"
 
 #include "deep/flatten.h"
-#include "deep/front_samples.h"
 
 #include <Imath/ImathVec.h>
 

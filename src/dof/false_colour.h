@@ -7,7 +7,7 @@
 #include "../base/image.h"
 #include "../deep/ldi.h"
 #include "../lens/thin_lens.h"
-#include "lens/lens_tiles.h"
+#include "lens/lens_gather.h"
 
 namespace sparselens {
 

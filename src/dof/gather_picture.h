@@ -2,6 +2,8 @@
 // preparing the LDI and writing the picture.
 #pragma once
 
+#include "../base/image.h"
+#include "../deep/ldi.h"
 #include "merge_layers.h"
 #include "methods.h"
 
@@ -41,5 +43,17 @@ bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool 
                       std::span<const Channel> channels);
 bool merges_by_rows(std::span<const Channel> channels);
 Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options);
+
+// A holdout that is out of focus like the scene. Its samples hide what is behind them at every lens point, but they are
+// not shown and leave no coverage of their own.
+//
+// They are merged into the LDI without colour. Extra channels carry their coverage, so that it can be subtracted again
+// after the gather, by any method.
+
+// Returns the LDI to gather, which is tidy. Both LDIs must be tidy.
+Ldi with_holdout(const Ldi &ldi, const Ldi &holdout);
+
+// Removes the coverage of the holdout, and the extra channels, from a picture gathered from that LDI.
+Image without_holdout(Image picture);
 
 } // namespace sparselens

@@ -5,11 +5,11 @@
 #include "deep/channel_alpha.h"
 #include "dof/border_reach.h"
 #include "dof/lens/beyond/beyond_frame.h"
-#include "dof/lens/lens_tiles.h"
-#include "dof/lens/optics.h"
+#include "dof/lens/gather_scene.h"
+#include "dof/lens/lens_gather.h"
 #include "dof/merge_layers.h"
 #include "dof/tuning.h"
-#include "lens/perceptive_depth.h"
+#include "lens/thin_lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ bool sees_infinity(const Ldi &rows) {
 
 Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
     Extremes found;
-    for (const auto *depths : {&rows.z, &rows.z_back}) // volumes are gathered in between (volumes.h)
+    for (const auto *depths : {&rows.z, &rows.z_back}) // volumes are gathered in between (merge_layers.h)
         for (const float z : *depths) found.add(lens, double(z));
     for (const float optical : rows.optical)
         found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));

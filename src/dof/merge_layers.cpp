@@ -4,8 +4,7 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "dof/lens/sample_blocks.h"
-#include "dof/volumes.h"
-#include "lens/perceptive_depth.h"
+#include "lens/thin_lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -245,6 +244,29 @@ Ldi merge_layers(Ldi &&ldi, double scale, double tolerance) {
     if (!can_merge_layers(ldi)) return std::move(ldi);
     if (!ldi.z_back.empty()) ldi = at_shown_depths(std::move(ldi));
     return merged(ldi, scale, tolerance);
+}
+
+double shown_depth(double alpha) {
+    if (alpha >= 1) return 0;
+    if (alpha < 1e-4) return 0.5 - alpha / 12; // the difference below would lose its digits
+    return -1 / std::log1p(-alpha) - (1 - alpha) / alpha;
+}
+
+Ldi at_shown_depths(Ldi ldi) {
+    constexpr std::size_t samples_at_once = std::size_t(1) << 16;
+    const std::size_t alpha = ldi.alpha();
+    const std::vector<float> z_back = std::move(ldi.z_back);
+    ldi.z_back.clear();
+    parallel_ranges(z_back.size(), samples_at_once, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const double extent = double(z_back[i]) - double(ldi.z[i]);
+            if (!(extent > 0) || !std::isfinite(extent)) continue;
+            const auto farther = float(shown_depth(double(alpha_at(ldi, alpha, i))) * extent);
+            ldi.z[i] += farther;
+            if (!ldi.optical.empty()) ldi.optical[i] += farther;
+        }
+    });
+    return ldi;
 }
 
 } // namespace sparselens

@@ -17,12 +17,25 @@ inline constexpr double layer_tolerance_px = 0.25;
 // coverage differs by channel.
 bool can_merge_layers(const Ldi &ldi);
 
-// `scale` is R F, pixels times scene units. Volumes get one depth first (volumes.h). The result has no extents and no
+// `scale` is R F, pixels times scene units. Volumes get one depth first (below). The result has no extents and no
 // weights, because the lens gather ignores them. Ids are those of the front samples. An LDI that cannot be merged is
 // returned unchanged. The LDI must be tidy.
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance);
 
 // The same with less memory: the samples of `ldi` are freed as those of the result are made.
 Ldi merge_layers(Ldi &&ldi, double scale, double tolerance);
+
+// Gives each volume of a deep picture (smoke and fog, whose samples reach from z to z_back) one depth for the gather.
+//
+// A volume of even density absorbs light by the same share over each distance. Its light therefore comes from depths
+// that follow an exponential distribution, which is cut off at the back of the volume. The mean is the middle of thin
+// smoke, and nearly the front of dense smoke.
+
+// The mean of that distribution, as a share of the volume's extent: 0.5 without coverage, 0 for coverage 1.
+double shown_depth(double alpha);
+
+// Moves each volume, and its image in a mirror, to its mean depth. The result has no extents. The LDI must be tidy:
+// its volumes do not overlap, so samples keep their order. Volumes that never end stay at their front.
+Ldi at_shown_depths(Ldi ldi);
 
 } // namespace sparselens

@@ -87,7 +87,7 @@ struct GatherTuning {
     // Pixels of CoC, beyond which the blur of interpolation does not show (footprints/interpolation_blur.h).
     static constexpr double interpolated_px = 4;
 
-    // The selective gather (selective/blend.h). The width of a depth bin, pixels of CoC: 0.25 gains nothing, 1 loses
+    // The selective gather (selective/splats.h). The width of a depth bin, pixels of CoC: 0.25 gains nothing, 1 loses
     // 0.5 dB on thin blades of grass.
     static constexpr double bin_px = 0.5;
     // Pixels of CoC. Beyond it, bins are wider: 1/64 of the CoC.

@@ -1,10 +1,11 @@
 #include "finish/finish_picture.h"
 
-#include "base/channel_names.h"
+#include "base/channel_kind.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "finish/frames_around.h"
 #include "finish/tuning.h"
+#include "finish/window_means.h"
 
 #include <fmt/format.h>
 
@@ -238,6 +239,81 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
     }
     finished.image = std::move(picture.gathered);
     return finished;
+}
+
+namespace {
+
+// The squared slope of the curve of light.h.
+float shown_slope(float value) {
+    const float v = std::max(value, FinishTuning::darkest), mapped = v / (1 + v);
+    const float slope = std::pow(mapped, 1 / 2.2f - 1) / 2.2f / ((1 + v) * (1 + v));
+    return slope * slope;
+}
+
+// The mean of a plane, and the standard deviation of the mean, from the differences between its blocks.
+std::array<double, 2> mean_and_deviation(const Values &values, const Grid &grid) {
+    const Tiles blocks(grid.box(), FinishTuning::block_px);
+    std::vector<double> sums(blocks.count(), 0);
+    for (std::size_t b = 0; b < blocks.count(); ++b) {
+        const Imath::Box2i box = blocks.box(b);
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) sums[b] += double(values[grid.index(x, y)]);
+    }
+    double sum = 0, squares = 0;
+    for (const double block : sums) sum += block;
+    const double mean_block = sum / double(sums.size());
+    for (const double block : sums) squares += (block - mean_block) * (block - mean_block);
+    return {sum / double(grid.size()), std::sqrt(squares) / double(grid.size())};
+}
+
+} // namespace
+
+ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays,
+                             const std::array<double, 2> &samples, const Grid &grid) {
+    const double n = samples[0], m = samples[1];
+    const auto noise_share = float(n * m / ((n + m) * (n + m)));
+    ErrorEstimate error;
+    error.map.resize(grid.size());
+    Values of_one(grid.size());
+    parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
+        for (std::size_t i = row * std::size_t(grid.width()); i < (row + 1) * std::size_t(grid.width());
+             ++i) {
+            float sum = 0, sum_of_one = 0;
+            for (std::size_t c = 0; c < finished.picture.size(); ++c) {
+                const float f = finished.of_one[0][c][i], g = finished.of_one[1][c][i];
+                const float x = rays[0][c][i], y = rays[1][c][i], slope = shown_slope(finished.picture[c][i]);
+                const float bias = (f - y) * (g - x) + (f - g) * (x - y), spread = (f - g) * (f - g);
+                sum += slope * (bias + noise_share * spread);
+                sum_of_one += slope * (bias + spread / 2);
+            }
+            error.map[i] = sum / float(finished.picture.size());
+            of_one[i] = sum_of_one / float(finished.picture.size());
+        }
+    });
+    const auto [mean, deviation] = mean_and_deviation(error.map, grid);
+    error.mean = mean;
+    error.standard_deviation = deviation;
+    error.of_one = mean_and_deviation(of_one, grid)[0];
+    soft_mean(error.map, grid, FinishTuning::error_radius);
+    for (float &e : error.map) e = std::max(e, 0.0f);
+    return error;
+}
+
+std::optional<double> decibels(const ErrorEstimate &error) {
+    if (!(error.mean > 2 * error.standard_deviation)) return {};
+    return -10 * std::log10(error.mean);
+}
+
+std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
+                                     double goal) {
+    const auto now = decibels(error);
+    if (!now) return {};
+    if (goal <= *now) return 1;
+    // Exponents between the best possible fall of noise and a fall that is hardly noticeable.
+    constexpr double fastest = 1, slowest = 0.25;
+    const double all = samples[0] + samples[1], one = std::sqrt(samples[0] * samples[1]);
+    const double fall = std::log(std::max(error.of_one / error.mean, 1.0)) / std::log(all / one);
+    return std::pow(10, (goal - *now) / 10 / std::clamp(fall, slowest, fastest));
 }
 
 } // namespace sparselens

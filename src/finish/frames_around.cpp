@@ -1,7 +1,6 @@
 #include "finish/frames_around.h"
 
 #include "base/parallel.h"
-#include "finish/classes.h"
 #include "finish/tuning.h"
 #include "finish/window_means.h"
 

@@ -20,7 +20,7 @@
 #pragma once
 
 #include "base/grid.h"
-#include "finish/colours.h"
+#include "finish/window_means.h"
 
 #include <span>
 

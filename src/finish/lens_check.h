@@ -13,7 +13,7 @@
 #pragma once
 
 #include "finish/finish.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <optional>
 #include <string>

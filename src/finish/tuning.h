@@ -59,7 +59,7 @@ struct FinishTuning {
     // rounded f-numbers.
     static constexpr double lens_difference = 0.02, turned_degrees = 2;
 
-    // Rays of each view beyond which rays through the lens are worth more (divide_rays.h). With five views, 4, 8, 16 and 32 have, of
+    // Rays of each view beyond which rays through the lens are worth more (plan.h). With five views, 4, 8, 16 and 32 have, of
     // 320 rays in all, 47.9, 48.7, 48.9, 48.7 dB on fence, 48.4, 48.6, 48.4, 48.1 on grass, 50.7, 51.6, 51.5, 51.2 on mirror.
     static constexpr int rays_per_view = 8;
 

@@ -1,12 +1,42 @@
-// Means over windows around each pixel of a plane. Only the part of a window inside the picture counts, so a constant
-// plane stays constant.
+// The planes that dof-finish works on, and their parts: windows around each pixel, cells of pixels, and classes of
+// values.
 #pragma once
 
 #include "base/grid.h"
+#include "base/image.h"
+#include "finish/tuning.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace sparselens {
+
+using Values = LargeArray<float>;      // one value per pixel
+using Colours = std::vector<Values>;   // one to three channels
+using Halves = std::array<Colours, 2>; // the same for two independent renders
+
+// max(v, 0), exactly, without a branch, so that compilers can process several values at once.
+inline float positive(float v) { return (v + std::abs(v)) / 2; }
+
+// How visible a change is in a value as bright as `v`: the squared slope of the tone curve v / (1 + v).
+inline float seen(float v) {
+    const float reciprocal = 1 / (1 + positive(v));
+    return reciprocal * reciprocal * reciprocal * reciprocal;
+}
+
+// The brightness of a pixel: the mean of its channels, at least 0.
+inline float brightness(const Colours &colours, std::size_t i) {
+    float sum = 0;
+    for (const Values &channel : colours) sum += channel[i];
+    return std::max(sum / float(colours.size()), 0.0f);
+}
+
+// Means over windows around each pixel of a plane. Only the part of a window inside the picture counts, so a constant
+// plane stays constant.
 
 // The mean over a square of side 2 radius + 1, in place. `values` holds a value for each pixel of `grid`; radius >= 0.
 void box_mean(std::span<float> values, const Grid &grid, int radius);
@@ -14,5 +44,90 @@ void box_mean(std::span<float> values, const Grid &grid, int radius);
 // Three box means in succession, in place: nearly a Gaussian of standard deviation sqrt(radius (radius + 1)), by the
 // central limit theorem.
 void soft_mean(std::span<float> values, const Grid &grid, int radius);
+
+// Square cells of pixels. Sums over windows of many pixels change little from one pixel to the next, so they are
+// computed for cells and interpolated between the middles of cells.
+
+// Pixels of a row that are processed at once; entries beyond its end are 0.
+constexpr std::size_t run_length = 64;
+using Run = std::array<float, run_length>;
+
+class Cells {
+public:
+    // `side`: 1, 2, 4 or 8 pixels. Cells at the right and lower border may be smaller.
+    Cells(const Grid &pixels, int side);
+
+    const Grid &pixels() const { return pixels_; }
+    const Grid &grid() const { return grid_; } // of the cells
+    std::size_t side() const { return side_; }
+    std::size_t row_of(std::size_t y) const { return y / side_; }
+    // The pixel rows of a row of cells: the first, and the one after the last.
+    std::array<std::size_t, 2> rows(std::size_t row) const;
+
+    // Adds a run that begins at column x to a row of sums.
+    void add(const Run &run, std::size_t x, std::span<float> sums) const;
+    // Divides a row of sums, which gives the means over the pixels of each cell.
+    void divide(std::size_t row, std::span<float> sums) const;
+    // One row of a plane of cells.
+    std::span<float> of_row(Values &plane, std::size_t row) const;
+
+    // Sets the pixels of row y, interpolated between the middles of cells, and some entries beyond its end.
+    void interpolate(const Values &plane, std::size_t y, std::vector<float> &pixels) const;
+
+private:
+    Grid pixels_, grid_;
+    std::size_t side_;
+};
+
+// Classes of equal weight along a measure, and the continuous place of a value in them; and the share of a candidate
+// that is believed in each.
+class Classes {
+public:
+    // For values in [least, most]; other values count as the nearer limit.
+    Classes(std::size_t count, float least, float most);
+
+    // Each pixel counts half by its weight and half equally, so that neither many pixels of little weight nor a few of
+    // great weight make up all classes.
+    void add(float value, double weight);
+    void divide(); // after the last add()
+
+    std::size_t of(float value) const; // [0, count)
+    float place_of(float value) const; // the same, continuous: k + 1/2 in the middle of class k
+
+private:
+    float bin_of(float value) const; // continuous
+
+    std::size_t count_;
+    float least_, most_;
+    std::vector<std::array<double, 2>> bins_; // pixels, weights
+    std::vector<float> places_;               // of the beginnings of bins, and of the last end
+};
+
+inline constexpr std::size_t trust_classes = FinishTuning::classes; // of each of the two measures
+inline constexpr std::size_t table_size = trust_classes * trust_classes;
+using ClassTable = std::array<double, table_size>;
+using Shares = std::array<float, table_size>;
+
+// Sums over the cells of each class, in one block of the picture.
+struct ClassSums {
+    ClassTable answers{};  // the part of the change that the test confirms
+    ClassTable energies{}; // energy of the change, plus the cost of its noise
+    ClassTable unseen{};   // variance of the answers, in addition to that between blocks
+};
+
+// The share of a candidate that is believed in each class of cells, from the evidence of both renders in all its cells:
+// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961).
+Shares shares_of(std::vector<ClassSums> blocks);
+
+// Interpolates linearly between the middles of classes.
+inline float share_at(const Shares &shares, float across, float down) {
+    constexpr auto last = float(trust_classes - 1);
+    const float i = std::clamp(across - 0.5f, 0.0f, last), j = std::clamp(down - 0.5f, 0.0f, last);
+    const std::size_t column = std::min(std::size_t(i), trust_classes - 2),
+                      row = std::min(std::size_t(j), trust_classes - 2);
+    const float x = i - float(column), y = j - float(row);
+    const float *at = shares.data() + row * trust_classes + column, *below = at + trust_classes;
+    return (1 - y) * ((1 - x) * at[0] + x * at[1]) + y * ((1 - x) * below[0] + x * below[1]);
+}
 
 } // namespace sparselens

@@ -96,7 +96,7 @@ public:
              const std::array<std::uint32_t, 3> &groups);
 
 private:
-    struct Vulkan; // device_vulkan.h
+    struct Vulkan;
     DeviceInfo info_;
     Watch watch_;
     std::unique_ptr<Vulkan> vulkan_;

@@ -6,8 +6,10 @@
 // stops, and beyond the first and the last it is constant.
 #pragma once
 
-#include "../view/look_values.h"
+#include "../lens/lens_looks.h"
+#include "../looks/table.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,5 +34,11 @@ struct GivenLooks {
 // Reads the files. `values` and the picture take precedence over the lens file, whose name is kept. Throws as
 // read_lens_file() and read_aperture_picture() do.
 LensFile read_looks(const GivenLooks &given, std::optional<double> fstop);
+
+// Reads R, G and B; if they are missing, Y; otherwise the only channel besides A. Alpha is ignored. A picture of more
+// than 2048 pixels a side is averaged down, because the gather needs up to 100 bytes for each of its pixels. Throws
+// Error, naming the file, if it cannot be read, has no such channels, or has values that are negative, not finite, or
+// all black.
+std::shared_ptr<const AperturePicture> read_aperture_picture(const std::string &path);
 
 } // namespace sparselens

@@ -2,6 +2,8 @@
 // shot.0001_0.exr, shot.0001_1.exr, ...
 #pragma once
 
+#include "shutter/shutter_mean.h"
+
 #include <ImfHeader.h>
 
 #include <cstddef>
@@ -41,5 +43,10 @@ struct StatedMoment {
 std::optional<StatedMoment> stated_moment(const Imf::Header &header);
 void write_stated_moment(Imf::Header &header, const StatedMoment &moment);
 Imf::Header without_stated_moment(const Imf::Header &header);
+
+// "box", "triangle" or "gaussian" ("" is a box), or the name of a file. Each line of a file is a time and a value, as
+// in ShutterCurve; lines that begin with # and empty lines do not count. Throws Error, naming file and line, if the
+// file cannot be read or understood.
+ShutterCurve shutter_curve(const std::string &name);
 
 } // namespace sparselens

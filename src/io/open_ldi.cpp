@@ -3,14 +3,13 @@
 #include "base/error.h"
 #include "deep/channel_alpha.h"
 #include "deep/checks/picture_checks.h"
-#include "deep/edge_depths.h"
+#include "deep/mixed_pixels.h"
 #include "deep/tidy.h"
-#include "io/depth_range.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
-#include "io/opened_camera.h"
-#include "view/depth_reader.h"
-#include "view/speckles.h"
+#include "io/open_view.h"
+#include "view/depth.h"
+#include "view/flat_pixels.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 
 #include "../deep/ldi.h"
 #include "../deep/sanitize.h"
-#include "../view/camera.h"
+#include "../view/view.h"
 #include "exr/exr_deep.h"
-#include "open_options.h"
+#include "open_view.h"
 
 #include <ImfHeader.h>
 
@@ -35,7 +35,7 @@ struct OpenedLdi {
     SamplesHeld held = AllSamples{};
     bool deep = true;                          // whether the file is deep; else it is flat with depth
     DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
-    bool depth_filtered = false;               // of a flat picture: see edge_depths.h
+    bool depth_filtered = false;               // of a flat picture: see mixed_pixels.h
     std::size_t speckles = 0;                  // of a flat picture: see OpenedView
     bool unpremultiplied = false;              // in a flat picture: its colours seem to be so
     bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)

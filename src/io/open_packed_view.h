@@ -1,7 +1,7 @@
 // A view from a file, flat or deep, ready for the warp.
 #pragma once
 
-#include "deep/packed_view.h"
+#include "deep/view_samples.h"
 #include "io/open_ldi.h"
 #include "io/open_view.h"
 

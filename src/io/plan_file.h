@@ -5,8 +5,8 @@
 //    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
 //    "edges": S, "supersample": 1 | 2,
 //    "rays": {"views": N, "supersample": N, "samples": N, "per_render": N, "noise_db": N or null, "alone": BOOL},
-//            with a budget to divide (divide_rays.h),
-//    "moments": N, "motion": PX, if the centre views of several moments tell (moments_needed.h),
+//            with a budget to divide (plan.h),
+//    "moments": N, "motion": PX, if the centre views of several moments tell (block_motion.h),
 //    "overscan": {"left": PX, "top": PX, "right": PX, "bottom": PX},
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
@@ -17,7 +17,6 @@
 // naming the file and the problem.
 #pragma once
 
-#include "../finish/divide_rays.h"
 #include "../plan/plan.h"
 
 #include <optional>
@@ -56,5 +55,28 @@ struct PlanRequest {
 PixelMask mask_of(const RequestedView &view);
 
 PlanRequest read_plan(const std::string &path);
+
+// The cameras of a plan on disk, as JSON or, for a spreadsheet, as CSV.
+//
+//   {"version": 1, "center": FILE, "lens_radius": R, "focus_distance": D or null for infinity,
+//    "metres_per_unit": M or null, "screen_window": {"width": W, "center": [X, Y]},
+//    "horizontal_field_degrees": A,
+//    "cameras": [{"name": "view_0", "offset": [X, Y], "world_to_camera": [[4 numbers], ...] or null,
+//                 "camera_to_world": ... or null}, ...]}
+//
+// Offsets are in scene units, x right and y up. world_to_camera is for EXR headers: x right, y up, z forward.
+// camera_to_world places a camera that looks along -z. Matrices act on row vectors: the last row is the translation.
+// CSV has a line of names, then a line per camera; matrices are 16 columns, empty if they are unknown.
+
+// Data of the centre view that the file holds besides the cameras.
+struct CamerasSetting {
+    std::string centre;
+    ThinLens lens;
+    std::optional<double> metres_per_unit;
+};
+
+// Writes CSV if the name ends in .csv, JSON if it ends in .json. Throws UsageError for another name, and Error, naming
+// the file, if it cannot be written.
+void write_cameras(const std::string &path, const PlannedCameras &cameras, const CamerasSetting &setting);
 
 } // namespace sparselens

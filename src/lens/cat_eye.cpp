@@ -1,6 +1,5 @@
 #include "lens/cat_eye.h"
 
-#include "lens/outline.h"
 #include "lens/polygon_pixels.h"
 
 #include <algorithm>

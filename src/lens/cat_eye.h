@@ -2,9 +2,9 @@
 #pragma once
 
 #include "lens/aperture.h"
+#include "lens/focus_field.h"
 #include "lens/lens_looks.h"
 #include "lens/lens_samples.h"
-#include "lens/picture_frame.h"
 
 #include <Imath/ImathBox.h>
 

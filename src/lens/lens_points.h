@@ -19,4 +19,11 @@ std::vector<Imath::V2d> spiral_lens_points(int n);
 // (P. Shirley and K. Chiu, "A low distortion map between disk and square", 1997).
 Imath::V2d disc_point(const Imath::V2d &square);
 
+// The share of the lens points that one moment of a shutter takes.
+
+struct LensShare {
+    int moment = 0;  // from 0
+    int moments = 1; // of the shutter, at least 1; 1: the moment takes all lens points
+};
+
 } // namespace sparselens

@@ -1,6 +1,6 @@
 #include "lens/lens_samples.h"
 
-#include "base/random.h"
+#include "base/numbers.h"
 #include "lens/lens_points.h"
 
 #include <algorithm>

@@ -4,6 +4,8 @@
 // pixels farther right; sums along the rows are then the integrals (Green's theorem, as for drawing outline fonts).
 #pragma once
 
+#include "lens/lens_looks.h"
+
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
@@ -28,5 +30,16 @@ double signed_area(std::span<const Imath::V2d> polygon);
 
 // Mean of x^2 + y^2 over a polygon whose area is not 0.
 double mean_square_radius(std::span<const Imath::V2d> polygon);
+
+// The outline of an aperture as a polygon, before it is squeezed: regular, with straight or bulging sides, inside the
+// unit circle; and the part of it that a second circle leaves.
+
+// The corners of the outline, counter-clockwise, y up. Arcs become chords that are at most `tolerance` away from them
+// and enclose the same area. The shape must not be a picture.
+std::vector<Imath::V2d> aperture_outline(const ApertureShape &shape, double tolerance);
+
+// The part of a convex polygon (counter-clockwise) that lies within 1 of `centre`; empty if there is none.
+std::vector<Imath::V2d> within_unit_circle(std::span<const Imath::V2d> polygon, const Imath::V2d &centre,
+                                           double tolerance);
 
 } // namespace sparselens

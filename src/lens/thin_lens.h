@@ -8,6 +8,9 @@
 
 #include <Imath/ImathVec.h>
 
+#include <cmath>
+#include <limits>
+
 namespace sparselens {
 
 struct ThinLens {
@@ -32,5 +35,58 @@ inline Imath::V2d seen_through(const ThinLens &lens, const Imath::V2d &p, double
 
 // Where the centre view shows a point of depth z that a view from lens point u (with a parallel axis) shows at q.
 Imath::V2d seen_from_centre(const ThinLens &lens, const Imath::V2d &q, double z, const Imath::V2d &u);
+
+// The f-number: the focal length over the diameter of the aperture.
+
+// Radius of the aperture in scene units, [0, inf); 0 for an f-number of infinity. fstop in (0, inf], focal_mm and
+// metres_per_unit (the length of a scene unit) in (0, inf).
+double radius_of(double fstop, double focal_mm, double metres_per_unit = 1);
+
+// The inverse: the f-number, infinity for a radius of 0.
+double fstop_of(double radius, double focal_mm, double metres_per_unit = 1);
+
+// Perceptive depth R F / z, in pixels, from the lens's scale R F (pixels times scene units) alone, for code that
+// compares depths and needs no focus. See also perceptive_depth(lens, z).
+inline double perceptive_scale(double radius, double focal_px) { return radius * focal_px; }
+
+inline double perceptive_depth(double scale, double z) { return scale / z; }
+
+// The inverse: the depth that has this perceptive depth.
+inline double depth_of_perceptive(double scale, double perceptive) { return scale / perceptive; }
+
+// The difference in 1 / z of two depths whose perceptive depths differ by `perceptive`.
+inline double inverse_depth_step(double scale, double perceptive) { return perceptive / scale; }
+
+// The depths between which a lens is sharp: no circle of confusion (CoC) is larger than a limit that still counts as
+// sharp.
+//
+// |c(z)| <= s, with c(z) = R F (z - d) / (d z), holds from R F d / (R F + s d) to
+// R F d / (R F - s d). The second is infinite if s d >= R F. The nearest such focus distance, R F / s, is the
+// hyperfocal distance.
+struct SharpRange {
+    double near, far;  // depths, scene units, (0, inf]
+    double hyperfocal; // focus distance, scene units, [0, inf)
+};
+
+// `sharp`: the largest CoC radius that is sharp, pixels, above 0.
+inline SharpRange sharp_range(const ThinLens &lens, double sharp) {
+    const double scale = perceptive_scale(lens.radius, lens.focal_px), hyperfocal = scale / sharp;
+    if (std::isinf(lens.focus)) return {hyperfocal, lens.focus, hyperfocal};
+    const double near = hyperfocal > 0 ? lens.focus / (1 + lens.focus / hyperfocal) : 0;
+    const double far = lens.focus < hyperfocal ? lens.focus / (1 - lens.focus / hyperfocal)
+                                               : std::numeric_limits<double>::infinity();
+    return {near, far, hyperfocal};
+}
+
+// The inverse: the focus and the hyperfocal distance of the widest lens that is sharp from `near` to `far`, with 0 <
+// near <= far. The hyperfocal distance is infinite if they are equal. It is proportional to the radius of the aperture.
+struct FocusFor {
+    double focus, hyperfocal;
+};
+
+inline FocusFor focus_for(double near, double far) {
+    const double ratio = near / far; // 0 if the range goes on to infinity
+    return {2 * near / (1 + ratio), 2 * near / (1 - ratio)};
+}
 
 } // namespace sparselens

@@ -7,14 +7,47 @@
 // an actor, so that block says nothing.
 #pragma once
 
-#include "match/pictures.h"
+#include "base/grid.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
+
+// The pictures that dof-match compares, tone-mapped (base/light.h), so that noise and errors count everywhere as
+// they do on a display.
+
+// A grey picture: the brightness of a plate, in [0, 1), or a derivative.
+struct Grey {
+    Grid grid;
+    std::vector<float> values; // [pixel]
+};
+
+// A picture in colour.
+struct Rgb {
+    Grid grid;
+    std::array<std::vector<float>, 3> rgb; // [channel][pixel]
+};
+
+// Blurs scene-linear colours by a Gaussian of this variance, square pixels, as a soft lens or film does. A negative
+// variance, at least -0.4, sharpens. Pixels beyond the border repeat it.
+Rgb softened(const Rgb &linear, double variance);
+
+Rgb tone_mapped(Rgb linear);
+
+// The mean of R, G and B of tone-mapped colours.
+Grey brightness(const Rgb &of);
+
+Rgb black(const Grid &grid);
+
+// (a - b) / step.
+Rgb difference(Rgb a, const Rgb &b, double step);
+
+// How a picture changes if it is blurred more along x than along y, and along the falling diagonal.
+std::pair<Rgb, Rgb> motion_changes(const Rgb &of);
 
 // How the gathered picture changes with the CoC at the middle depth, the CoC at the ends of the range of depths, and the
 // softness of the whole picture; then with softness along x more than y, and along the diagonals, as motion has it.
@@ -33,5 +66,15 @@ struct BlockFit {
 // `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: [pixel], 0: not compared.
 std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered,
                                  std::span<const Rgb> changes);
+
+// Whether a plate shows what a gathered picture shows: a block that does is fitted better in its own place than in
+// other places of the plate. In a plate of another shot, one block in nine is, by chance.
+struct Evidence {
+    int textured = 0; // blocks of the plate that a fit explains, in some place
+    int matched = 0;  // of these: blocks that are fitted best in their own place
+    double matched_share() const { return textured > 0 ? double(matched) / textured : 0; }
+};
+
+Evidence find_evidence(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered);
 
 } // namespace sparselens

@@ -1,11 +1,10 @@
 // Finds the lens whose gathered picture is blurred as a plate is.
 //
-// The CoC is a linear function of perceptive depth P (lens/perceptive_depth.h): c(P) = coc - scale (P - middle). The
+// The CoC is a linear function of perceptive depth P (lens/thin_lens.h): c(P) = coc - scale (P - middle). The
 // search compares gathered pictures over a grid of both numbers, then goes uphill from the best ones.
 #pragma once
 
 #include "match/blocks.h"
-#include "match/pictures.h"
 
 #include <array>
 #include <functional>

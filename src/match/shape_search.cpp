@@ -1,6 +1,6 @@
 #include "match/shape_search.h"
 
-#include "lens/aperture_area.h"
+#include "lens/lens_looks.h"
 #include "match/tuning.h"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 // shapes blur about equally.
 #pragma once
 
-#include "lens/aperture_shape.h"
+#include "lens/lens_looks.h"
 #include "match/lens_search.h"
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include "match/smooth_keys.h"
 
-#include "base/median.h"
+#include "base/numbers.h"
 #include "match/tuning.h"
 
 #include <algorithm>

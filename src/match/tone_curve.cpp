@@ -1,12 +1,13 @@
 #include "match/tone_curve.h"
 
-#include "base/median.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "match/tuning.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -175,6 +176,31 @@ Rgb with_curve_of(const Rgb &plate, std::span<const std::uint8_t> usable, const 
     const std::vector<float> weights = likeness(plate, usable, about);
     return with_curves(shown,
                        [&](std::size_t k) { return mean_points(plate.rgb[k], weights, shown.rgb[k]); });
+}
+
+namespace {
+
+// The value from which pixels count as clipped; infinite: none is.
+float clipped_from(std::span<const float> plane) {
+    std::vector<float> values;
+    std::ranges::copy_if(plane, std::back_inserter(values), [](float v) { return std::isfinite(v); });
+    constexpr float none = std::numeric_limits<float>::infinity();
+    if (values.empty()) return none;
+    const double largest = double(*std::ranges::max_element(values));
+    const auto above = [&](double share) {
+        return double(std::ranges::count_if(values, [&](float v) { return double(v) >= share * largest; }));
+    };
+    const bool is_clipped = largest > 0 && above(MatchTuning::brightest) >=
+                                               MatchTuning::clipped_share * above(MatchTuning::bright);
+    return is_clipped ? float(MatchTuning::bright * largest) : none;
+}
+
+} // namespace
+
+void raise_clipped(std::span<float> plane) {
+    const float from = clipped_from(plane);
+    for (float &value : plane)
+        if (value >= from) value *= MatchTuning::clipped_factor;
 }
 
 } // namespace sparselens

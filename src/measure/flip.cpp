@@ -1,6 +1,6 @@
 #include "measure/flip.h"
 
-#include "base/luminance.h"
+#include "base/light.h"
 #include "base/parallel.h"
 #include "measure/flip_terms.h"
 

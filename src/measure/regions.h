@@ -1,7 +1,7 @@
 // The three regions of a picture for which errors are reported separately: docs/design.md section 6.
 //
 // Each is a set of pixels, given by the signed CoC radius c (pixels) of each pixel's front sample
-// (deep/front_samples.h):
+// (deep/flatten.h):
 //   in_focus     |c| < 1
 //   blurred      |c| > 8
 //   silhouettes  within the local |c| of a jump of c larger than 1 between two of the four neighbours, where the local

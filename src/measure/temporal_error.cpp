@@ -1,7 +1,7 @@
 #include "measure/temporal_error.h"
 
+#include "base/light.h"
 #include "base/parallel.h"
-#include "base/tone_map.h"
 
 #include <algorithm>
 #include <cmath>

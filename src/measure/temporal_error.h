@@ -1,6 +1,6 @@
 // How steady a sequence of pictures is, and how well its changes match those of a reference sequence.
 //
-// Let v(t) be a tone-mapped value (tone_map.h) of frame t. Smooth motion changes v evenly; popping and sparkling do
+// Let v(t) be a tone-mapped value (light.h) of frame t. Smooth motion changes v evenly; popping and sparkling do
 // not. So steadiness is measured by second differences over time,
 // |v(t - 1) - 2 v(t) + v(t + 1)|. The second difference of a pixel is the largest over R, G, B and all frames. Changes
 // are compared by first differences, v(t) - v(t - 1).

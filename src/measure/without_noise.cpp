@@ -1,7 +1,7 @@
 #include "measure/without_noise.h"
 
+#include "base/light.h"
 #include "base/parallel.h"
-#include "base/tone_map.h"
 
 #include <algorithm>
 #include <array>

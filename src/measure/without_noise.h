@@ -1,5 +1,5 @@
 // How far a picture is from the truth, measured with two independent references: the mean of (p - a)(p - b),
-// tone-mapped (tone_map.h), over R, G and B. It is free of the references' noise, which an error against either of them
+// tone-mapped (light.h), over R, G and B. It is free of the references' noise, which an error against either of them
 // contains.
 #pragma once
 

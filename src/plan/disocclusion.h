@@ -63,4 +63,9 @@ PixelMask without_slits(const PixelMask &mask);
 // All pixels within `margin` pixels, along each axis, of set pixels.
 PixelMask grown(const PixelMask &mask, int margin);
 
+// A few rectangles that contain all pixels of a mask, because renderers crop by rectangles.
+
+// At most `most` rectangles, which may overlap; none for an empty mask. EXR coordinates, corners included.
+std::vector<Imath::Box2i> rectangles_over(const PixelMask &mask, std::size_t most = 64);
+
 } // namespace sparselens

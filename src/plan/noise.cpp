@@ -1,8 +1,7 @@
 #include "plan/noise.h"
 
+#include "base/light.h"
 #include "base/parallel.h"
-#include "base/tone_map.h"
-#include "plan/brightness.h"
 #include "plan/tuning.h"
 
 #include <algorithm>

@@ -7,15 +7,18 @@
 #pragma once
 
 #include "base/image.h"
+#include "base/light.h"
 #include "lens/thin_lens.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace sparselens {
 
-// Mean square, tone-mapped (base/tone_map.h), of the noise that is left of each pixel in the lens picture of a view:
+// Mean square, tone-mapped (base/light.h), of the noise that is left of each pixel in the lens picture of a view:
 // where the CoC has radius c > 1, noise is averaged over its disc of pi c^2 pixels. It is measured in blocks of 8 x 8
 // pixels and the blocks around them, from R, G and B of the image; z: planar depth per pixel. `deviation`: the standard
 // deviation of the noise, tone-mapped, if known instead of measured.
@@ -33,5 +36,19 @@ std::vector<double> noise_in_lens_picture(const Image &image, std::span<const fl
 // and mirror, which have 30.4, 33.9, 35.9; for 320 rays 45.3, 47.7, 47.9, which have 45.9, 49.7, 51.5.
 double noise_of_rays(const Image &image, std::span<const float> z, const ThinLens &lens, int across,
                      int rays);
+
+// For each pixel the mean of the tone-mapped colours that the image has, [0, 1) (base/light.h).
+inline std::vector<double> brightness(const Image &image) {
+    std::vector<double> mean(image.windows.pixels());
+    double channels = 0;
+    for (const std::size_t channel : find_rgb(image.channels)) {
+        if (channel == npos) continue;
+        ++channels;
+        const auto plane = image.plane(channel);
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += tone_mapped(plane[i]);
+    }
+    for (double &value : mean) value /= std::max(channels, 1.0);
+    return mean;
+}
 
 } // namespace sparselens

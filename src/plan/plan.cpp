@@ -1,9 +1,14 @@
 #include "plan/plan.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
+#include "finish/tuning.h"
 #include "lens/lens_points.h"
 #include "plan/noise.h"
 #include "plan/tuning.h"
+#include "view/lens_views.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,6 +234,46 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
                 {candidate.u, worth_of_view(candidate, centre, lens, plan, noisy), candidate.hidden.count()});
     }
     return plan;
+}
+
+namespace {
+
+PlannedCamera camera_at(const Camera &centre, const Imath::V2d &offset, std::string name) {
+    return {std::move(name), offset, moved_across_lens(centre, offset).world_to_camera};
+}
+
+} // namespace
+
+PlannedCameras cameras_of(const Plan &plan, const Camera &camera, const ThinLens &lens, int display_width) {
+    PlannedCameras result;
+    const double width = display_width / lens.focal_px;
+    const Imath::V2d axis =
+        camera.principal_point.value_or(Imath::V2d(0, 0)); // to the right of and below the middle
+    result.window = {width, {0 - axis.x * width, axis.y * width}};
+    result.cameras.push_back(camera_at(camera, {0, 0}, "center"));
+    for (std::size_t k = 0; k < plan.views.size(); ++k)
+        result.cameras.push_back(camera_at(camera, plan.views[k].u * lens.radius, fmt::format("view_{}", k)));
+    return result;
+}
+
+Imath::M44d camera_to_world_looking_back(const Imath::M44d &world_to_camera) {
+    Imath::M44d placement = world_to_camera.inverse();
+    for (int column = 0; column < 3; ++column) placement[2][column] = -placement[2][column];
+    return placement;
+}
+
+RayDivision divide_rays(int rays, int views, int supersample, double noise) {
+    const int per_view = std::min(rays / views, FinishTuning::rays_per_view);
+    if (per_view < 1)
+        throw UsageError(fmt::format("`rays`: {} for each pixel are too few for {} views", rays, views));
+    const int file_pixels = supersample * supersample; // that make one pixel of the picture
+    RayDivision division{views, 1, per_view, 0};
+    if (per_view >= file_pixels) division = {views, supersample, per_view / file_pixels, 0};
+    division.per_render = (rays - division.of_views()) / 2;
+    if (per_view < FinishTuning::rays_per_view) division.per_render = 0;
+    division.noise = noise;
+    division.alone = noise < FinishTuning::noise_that_views_do_not_reach;
+    return division;
 }
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
 #include "python/arrays.h"
 
-#include "base/channel_names.h"
+#include "base/channel_kind.h"
 #include "base/error.h"
 
 #include <fmt/format.h>

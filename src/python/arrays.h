@@ -30,7 +30,7 @@ py::array shared(std::span<const std::uint8_t> mask, const py::object &owner, st
 
 // The picture as [channel][row][column].
 py::array planes_of(const Image &image, const py::object &owner, Access access);
-// The number of a channel, by its name or by another spelling of it (base/channel_names.h). Throws KeyError if there is
+// The number of a channel, by its name or by another spelling of it (base/channel_kind.h). Throws KeyError if there is
 // none.
 std::size_t channel_named(std::span<const Channel> channels, const std::string &name);
 // One channel as [row][column]. Throws KeyError if there is none of that name.

@@ -1,7 +1,7 @@
 """Writes the stubs from stubs.pyi, and their docstrings as C++ constants: docs.py TEMPLATE LOOKS STUBS HEADER.
 
 In the template, LENS stands for the lens values that many functions take, as keywords (**LENS) or in a docstring, and
-LOOKS for the numbers of the looks, which the file LOOKS lists (list_looks.cpp). In the header, the docstring of the stubs themselves becomes doc::module. The docstring of the function gather becomes doc::gather; of
+LOOKS for the numbers of the looks, which the file LOOKS lists (module.cpp). In the header, the docstring of the stubs themselves becomes doc::module. The docstring of the function gather becomes doc::gather; of
 the class View, doc::View::text; and of its member z, doc::View::z. The constants of functions, and of classes that can be
 called, begin with the signature in the form that inspect reads."""
 import ast

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "finish/finish_picture.h"
-#include "io/render_samples.h"
+#include "io/exr/exr_header.h"
 #include "python/job.h"
 #include "python/verbs.h"
 

@@ -1,9 +1,9 @@
 #include "python/from_arrays.h"
 
 #include "base/error.h"
-#include "deep/premultiply.h"
-#include "io/camera/camera_write.h"
-#include "io/exr/kept_names.h"
+#include "deep/sanitize.h"
+#include "io/camera/camera_header.h"
+#include "io/exr/exr_common.h"
 #include "python/arrays.h"
 #include "python/job.h"
 

@@ -5,6 +5,9 @@
 #pragma once
 
 #include "base/progress.h"
+#include "chain/devices.h"
+#include "chain/notices.h"
+#include "python/objects.h"
 
 #include <pybind11/pybind11.h>
 
@@ -27,6 +30,31 @@ Result job(const py::object &callback, const std::function<Result(Progress &)> &
     std::optional<Result> result;
     run_job(callback, [&](Progress &progress) { result.emplace(work(progress)); });
     return std::move(*result);
+}
+
+// Shared by calls of src/chain: the devices of the keyword `device`, which live until the interpreter ends, and the
+// conversion of warnings into Python's (UserWarning) when the work is done.
+
+// Runs work(progress, tell) as a job().
+template <typename Result>
+Result told_job(const py::object &callback, const std::function<Result(Progress &, const Tell &)> &work) {
+    std::vector<std::string> warnings;
+    Result result = job<Result>(callback, [&](Progress &progress) {
+        return work(progress, [&](const Notice &notice) {
+            if (level_of(notice) != NoticeLevel::note) warnings.push_back(words_of(notice));
+        });
+    });
+    for (const std::string &warning : warnings) warn(warning);
+    return result;
+}
+
+inline GatherDevice &gather_device() {
+    static GatherDevice one;
+    return one;
+}
+inline WarpingDevice &warp_device() {
+    static WarpingDevice one;
+    return one;
 }
 
 } // namespace sparselens::python

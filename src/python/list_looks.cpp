@@ -1,6 +1,6 @@
 // Lists the numbers of the looks for the stubs of the Python module (docs.py): a line for each, with the keyword and what
 // it may be.
-#include "view/look_values.h"
+#include "looks/table.h"
 
 #include <cstdio>
 #include <string>

@@ -1,9 +1,8 @@
 #include "python/objects.h"
 
 #include "base/text.h"
-#include "chain/file_notices.h"
-#include "chain/words.h"
-#include "io/camera/camera_read.h"
+#include "chain/notices.h"
+#include "io/camera/camera_header.h"
 #include "python/arrays.h"
 #include "python/from_arrays.h"
 #include "python/verbs.h"

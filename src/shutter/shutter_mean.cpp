@@ -3,7 +3,9 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -97,6 +99,118 @@ Image ShutterMean::take() {
                  [&](std::size_t row) { divide_row(sum_.windows.data.min.y + int(row)); });
     coverages_.clear();
     return std::exchange(sum_, {});
+}
+
+ShutterCurve box_shutter() { return {{{0, 1}, {1, 1}}}; }
+
+ShutterCurve triangle_shutter() { return {{{0, 0}, {0.5, 1}, {1, 0}}}; }
+
+ShutterCurve gaussian_shutter() {
+    constexpr int pieces = 1024;
+    ShutterCurve curve;
+    for (int i = 0; i <= pieces; ++i) {
+        const double time = double(i) / pieces, deviations = (time - 0.5) * 6;
+        curve.points.push_back({time, std::exp(-0.5 * deviations * deviations)});
+    }
+    return curve;
+}
+
+// Times are counted in moments, so that a box gives each moment exactly the same weight.
+std::vector<double> moment_weights(const ShutterCurve &curve, int moments, const ShutterPart &open) {
+    std::vector<double> weights(std::size_t(moments), 0.0);
+    const auto at = [&](double time) { return (open.from + time * (open.to - open.from)) * moments; };
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+        const auto &[from_time, from] = curve.points[i];
+        const auto &[to_time, to] = curve.points[i + 1];
+        const double begin = at(from_time), end = at(to_time);
+        if (begin == end) continue; // too short to count
+        for (int m = int(begin); m < moments && m < end; ++m) {
+            const double first = std::max(begin, double(m)), last = std::min(end, m + 1.0);
+            const double middle = ((first + last) / 2 - begin) / (end - begin);
+            weights[std::size_t(m)] += std::lerp(from, to, middle) * (last - first);
+        }
+    }
+    return weights;
+}
+
+ShutterPart exposure_of_row(int row, int rows, double duration) {
+    const double middle = (std::clamp(row, 0, rows - 1) + 0.5) / rows;
+    const double from = middle * (1 - duration);
+    return {from, std::min(from + duration, 1.0)};
+}
+
+std::vector<std::vector<double>> row_weights(const ShutterCurve &curve, int moments, double duration,
+                                             int rows) {
+    std::vector weights(std::size_t(moments), std::vector(std::size_t(rows), 0.0));
+    for (int row = 0; row < rows; ++row) {
+        const std::vector<double> of_row =
+            moment_weights(curve, moments, exposure_of_row(row, rows, duration));
+        for (std::size_t m = 0; m < weights.size(); ++m) weights[m][std::size_t(row)] = of_row[m];
+    }
+    return weights;
+}
+
+LensShare share_of_moment(int moment, int moments, double duration) {
+    const int seen = std::max(1, int(std::lround(moments * duration)));
+    return {moment % seen, seen};
+}
+
+namespace {
+
+// Points farther back in a share's order lie elsewhere on the lens, because the spiral has gone on.
+constexpr std::size_t most_compared = 128;
+// The square of a pixel, in units of the square of the lens's radius.
+constexpr double pixel_square = 0.25;
+
+double around(double difference) { return difference - std::round(difference); }
+
+// How close two points are, on the lens and in the pixel, whose borders meet.
+double closeness(const LensSample &a, const LensSample &b) {
+    const double x = double(a.x - b.x), y = double(a.y - b.y), s = around(double(a.pixel_x - b.pixel_x)),
+                 t = around(double(a.pixel_y - b.pixel_y));
+    return 1 / (x * x + y * y + pixel_square * (s * s + t * t) + 1e-9);
+}
+
+class Shares {
+public:
+    explicit Shares(std::size_t moments) : shares_(moments), served_(moments) {}
+
+    // Gives the point to the moment whose points lie farthest from it. Each moment takes one before any takes another.
+    void add(const LensSample &point) {
+        std::size_t chosen = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t m = 0; m < shares_.size(); ++m) {
+            if (served_[m]) continue;
+            const double crowd = crowd_at(point, shares_[m]);
+            if (crowd < least) least = crowd, chosen = m;
+        }
+        shares_[chosen].push_back(point);
+        served_[chosen] = true;
+        if (std::ranges::find(served_, false) == served_.end()) served_.assign(served_.size(), false);
+    }
+    std::vector<LensSample> take(std::size_t moment) { return std::move(shares_[moment]); }
+
+private:
+    static double crowd_at(const LensSample &point, const std::vector<LensSample> &share) {
+        double crowd = 0;
+        for (std::size_t i = share.size() - std::min(share.size(), most_compared); i < share.size(); ++i)
+            crowd += closeness(point, share[i]);
+        return crowd;
+    }
+
+    std::vector<std::vector<LensSample>> shares_;
+    std::vector<bool> served_; // in this round
+};
+
+} // namespace
+
+std::vector<LensSample> shared_points(std::vector<LensSample> points, const LensShare &share) {
+    const auto moments = std::size_t(share.moments), moment = std::size_t(share.moment);
+    if (moments == 1) return points;
+    if (points.size() < moments) return {points[moment * points.size() / moments]};
+    Shares shares(moments);
+    for (const LensSample &point : points) shares.add(point);
+    return shares.take(moment);
 }
 
 } // namespace sparselens

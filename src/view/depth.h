@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../base/image.h"
+#include "view.h"
 
 #include <Imath/ImathVec.h>
 
@@ -36,5 +37,23 @@ double normalized_depth(double value, const DepthRange &range);
 
 // The same, but linear in 1 / z: the value is (1 / near - 1 / z) / (1 / near - 1 / far).
 double hyperbolic_depth(double value, const DepthRange &range);
+
+class DepthReader {
+public:
+    // `meaning` says what the channel holds, and `range` is in the unit of its depths. `windows` are the picture's and
+    // must outlive the reader. Throws UsageError if ray lengths are to be converted and the focal length is unknown.
+    DepthReader(const Windows &windows, DepthMeaning meaning, const DepthRange &range, const Camera &camera);
+
+    // The planar depth of the i-th pixel of the data window. An invalid value stays invalid (see sanitize.h).
+    float planar(float value, std::size_t i) const;
+
+private:
+    const Windows &windows_;
+    DepthMeaning meaning_;
+    DepthRange range_;
+    bool white_near_; // 1 is near, so values are reversed
+    double focal_px_;
+    Imath::V2d principal_point_;
+};
 
 } // namespace sparselens

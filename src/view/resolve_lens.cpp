@@ -1,7 +1,8 @@
 #include "view/resolve_lens.h"
 
 #include "base/error.h"
-#include "lens/f_number.h"
+#include "lens/thin_lens.h"
+#include "view/view_mapping.h"
 
 #include <algorithm>
 #include <array>
@@ -147,6 +148,16 @@ double views_radius(const Camera &camera) {
 bool sees_past_views(const Camera &camera, const ThinLens &lens) {
     const double widest = views_radius(camera);
     return widest > 0 && lens.radius > 1.001 * widest;
+}
+
+LensLooks resolve_looks(const LookValues &values, const Camera &camera, const ThinLens &lens,
+                        const Windows &windows) {
+    LensLooks looks;
+    values.act({lens, camera.focal_length_mm, camera.metres_per_unit.value_or(1)}, looks);
+    looks.aperture.picture = values.picture;
+    if (camera.principal_point)
+        looks.axis = in_pixels(*camera.principal_point, windows) - in_pixels({0, 0}, windows);
+    return looks;
 }
 
 } // namespace sparselens

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "../base/image.h"
+#include "../lens/lens_looks.h"
 #include "../lens/thin_lens.h"
-#include "../looks/number_parameter.h"
-#include "camera.h"
+#include "../looks/look.h"
+#include "../looks/table.h"
+#include "view.h"
 
 #include <optional>
 #include <span>
@@ -56,5 +58,12 @@ double views_radius(const Camera &camera);
 
 // Whether the lens sees past the views from which its LDI was made; false if the camera does not give their positions.
 bool sees_past_views(const Camera &camera, const ThinLens &lens);
+
+// Turns the looks that a user, a lens file and a picture's header give into those of one lens and picture.
+
+// `lens` is the picture's lens (a proxy's has a shorter focal length in pixels). Throws UsageError if a look needs the
+// focal length and it is unknown, or if the lens cannot focus that near.
+LensLooks resolve_looks(const LookValues &values, const Camera &camera, const ThinLens &lens,
+                        const Windows &windows);
 
 } // namespace sparselens

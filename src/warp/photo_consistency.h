@@ -6,9 +6,9 @@
 // equally large; a reflection that moves relative to its surface makes the difference larger.
 #pragma once
 
-#include "kernels/photo_rules.h"
+#include "kernels/warp_rules.h"
 #include "lens/thin_lens.h"
-#include "warp/images/disagreement.h"
+#include "warp/images/patch_comparison.h"
 #include "warp/surfaces.h"
 
 #include <optional>
@@ -30,7 +30,7 @@ struct PhotoConsistency {
     std::vector<Disagreement> differ;
 };
 
-// Converts the verdict on a block (kernels/photo_rules.h).
+// Converts the verdict on a block (kernels/warp_rules.h).
 Disagreement disagreement_of(std::uint32_t verdict);
 
 // Tests some rows of `data`, whose surfaces are given.

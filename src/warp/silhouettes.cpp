@@ -1,9 +1,9 @@
 #include "warp/silhouettes.h"
 
-#include "base/coverage.h"
+#include "base/light.h"
 #include "base/parallel.h"
-#include "deep/unmixing.h"
-#include "lens/perceptive_depth.h"
+#include "deep/mixed_pixels.h"
+#include "lens/thin_lens.h"
 #include "warp/mixed/matte_shares.h"
 #include "warp/mixed/wisps.h"
 #include "warp/tuning.h"

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "deep/view_samples.h"
-#include "warp/mixed/other_views.h"
+#include "warp/mixed/wisps.h"
 
 #include <cstddef>
 #include <span>

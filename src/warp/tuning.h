@@ -11,10 +11,10 @@ struct WarpTuning {
     // Largest number of pixels that an LDI grows beyond the centre view on a side.
     static constexpr int most_overscan = 1024;
 
-    // Pixels around the one of a view that must see no farther (sight.h).
+    // Pixels around the one of a view that must see no farther (continue_surfaces.h).
     static constexpr int sight_margin = 1;
 
-    // Solids (solids.h). Perceptive: thickness of a surface that no view sees through. With 2, pinecone and macro have
+    // Solids (continue_surfaces.h). Perceptive: thickness of a surface that no view sees through. With 2, pinecone and macro have
     // .7 and .1 dB less inside their masks.
     static constexpr double solid_px = 4;
     // Perceptive: a view counts as seeing something nearer if it is nearer by at least this.
@@ -55,7 +55,7 @@ struct WarpTuning {
     // Residual of a colour that two others explain, as a share of it.
     static constexpr double strand_residual = 0.1;
 
-    // Small lamps (lamps/compact_lamps.h). Width and height in pixels of the block that tells what surrounds a lamp.
+    // Small lamps (lamps/lamp_light.h). Width and height in pixels of the block that tells what surrounds a lamp.
     static constexpr int lamp_block = 16;
     // Least light of a lamp's other pixels, as a share of the brightest one.
     static constexpr float lamp_belongs_to_brightest = 0.02f;
@@ -147,7 +147,7 @@ struct WarpTuning {
     // ... or at all, mean square.
     static constexpr float image_continued_least_difference = 1e-5f;
 
-    // Colours of images (images/show_images.h). Factor on the mean difference of the best views: a view that differs
+    // Colours of images (images/image_depths.h). Factor on the mean difference of the best views: a view that differs
     // more sees something else, ...
     static constexpr float image_shown_difference = 4;
     // ... unless its difference, mean square, is invisible.

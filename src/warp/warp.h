@@ -1,14 +1,13 @@
 // From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
 // A sample is a pixel of some view, or an average of pixels of one surface. Samples seen past it may fill it up
-// (opaque_pixels.h), and surfaces continue a little behind nearer ones (continue_surfaces.h). Two samples belong to the
+// (coverage.h), and surfaces continue a little behind nearer ones (continue_surfaces.h). Two samples belong to the
 // same surface if their perceptive depths R F / z differ by less than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"
 #include "../deep/ldi.h"
 #include "../lens/thin_lens.h"
-#include "../view/camera.h"
 #include "../view/view.h"
 
 #include <optional>
@@ -18,11 +17,11 @@
 namespace sparselens {
 
 class WarpDevice;  // device/warp_device.h
-struct PackedView; // deep/packed_view.h
+struct PackedView; // deep/view_samples.h
 
 enum class Merge {
     // Rim samples are averaged, by weight, with the centre sample of the same surface; the others are averaged with
-    // each other, with the coverage that the vote of the views gives them (visibility_vote.h).
+    // each other, with the coverage that the vote of the views gives them (coverage.h).
     average,
     keep, // one sample per surface, the centre's if it has one; nothing in front of the centre sample
 };
@@ -36,7 +35,7 @@ struct WarpOptions {
     bool split_silhouettes = true;
     // With Merge::average: views that disagree out of focus are not averaged (photo_consistency.h).
     bool test_photo_consistency = true;
-    // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/show_images.h).
+    // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/image_depths.h).
     bool find_images = true;
     // With Merge::average: surfaces continue behind nearer ones (continue_surfaces.h).
     bool continue_surfaces = true;

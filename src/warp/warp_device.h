@@ -3,10 +3,10 @@
 // device leaves, and it looks for images in mirrors and glass.
 #pragma once
 
-#include "base/device_report.h"
+#include "base/progress.h"
 #include "deep/ldi.h"
 #include "lens/thin_lens.h"
-#include "warp/images/disagreement.h"
+#include "warp/images/patch_comparison.h"
 
 #include <cstdint>
 #include <functional>

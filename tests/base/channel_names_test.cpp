@@ -1,4 +1,4 @@
-#include "base/channel_names.h"
+#include "base/channel_kind.h"
 #include "base/image.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/in_order.h"
+#include "base/parallel.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,4 +1,4 @@
-#include "base/large_array.h"
+#include "base/image.h"
 
 #include <gtest/gtest.h>
 

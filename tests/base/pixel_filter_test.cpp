@@ -1,4 +1,4 @@
-#include "base/pixel_filter.h"
+#include "base/subpixels.h"
 
 #include <gtest/gtest.h>
 

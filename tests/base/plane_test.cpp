@@ -1,4 +1,4 @@
-#include "base/plane.h"
+#include "base/image.h"
 
 #include <gtest/gtest.h>
 

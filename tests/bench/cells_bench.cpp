@@ -3,7 +3,6 @@
 #include "dof/lens/cells.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
-#include "dof/lens/lens_tiles.h"
 #include "support/lens_ldi.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // sparselens-deep-scene NAME WIDTH HEIGHT OUT.exr: writes a scene of support/deep_scenes.h, compressed by ZIPS.
 #include "base/error.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_deep.h"
 #include "support/deep_scenes.h"
 

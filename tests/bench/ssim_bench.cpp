@@ -1,4 +1,4 @@
-#include "measure/ssim.h"
+#include "measure/image_error.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,4 +1,4 @@
-#include "chain/file_notices.h"
+#include "chain/notices.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The window grows with each look: the picture of an element is the same whether its data window is tight or large.
 #include "base/error.h"
 #include "chain/gather_windows.h"
-#include "deep/front_samples.h"
-#include "deep/pad.h"
+#include "deep/flatten.h"
+#include "deep/proxy.h"
 #include "dof/gather_picture.h"
 #include "io/files/memory_limit.h"
 #include "support/lens_ldi.h"

@@ -1,11 +1,10 @@
 // Makes LDIs from views and from other LDIs in memory, with a known number of samples.
 #include "base/error.h"
-#include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
+#include "chain/notices.h"
 #include "chain/plan_views.h"
 #include "chain/regions.h"
-#include "chain/words.h"
-#include "io/camera/camera_read.h"
+#include "io/camera/camera_header.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
 #include "support/views.h"

@@ -1,4 +1,4 @@
-#include "chain/picture_looks.h"
+#include "chain/take_picture.h"
 #include "support/given_looks.h"
 
 #include <ImfIntAttribute.h>

@@ -1,7 +1,7 @@
 // Pictures of an open shutter whose values are known in closed form.
 #include "base/error.h"
+#include "chain/notices.h"
 #include "chain/take_moments.h"
-#include "chain/words.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/text_file.h"
 #include "io/moment_files.h"

@@ -1,8 +1,8 @@
 // Pictures whose values and notices are known in closed form, tested once below all front ends.
 #include "base/error.h"
+#include "chain/notices.h"
 #include "chain/take_picture.h"
-#include "chain/words.h"
-#include "io/camera/camera_read.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_deep.h"
 #include "support/lens_ldi.h"
 #include "support/scratch_folder.h"

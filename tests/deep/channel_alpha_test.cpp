@@ -1,7 +1,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/holdout.h"
+#include "deep/merge.h"
 #include "deep/proxy.h"
 #include "deep/tidy.h"
 #include "dof/methods.h"

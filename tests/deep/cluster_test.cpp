@@ -1,6 +1,5 @@
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/order.h"
 #include "deep/tidy.h"
 #include "support/ldi_samples.h"
 

@@ -1,6 +1,6 @@
-#include "base/random.h"
-#include "deep/edge_depths.h"
+#include "base/numbers.h"
 #include "deep/flatten.h"
+#include "deep/mixed_pixels.h"
 #include "deep/view_samples.h"
 #include "lens/lens_points.h"
 #include "support/views.h"

@@ -1,5 +1,5 @@
 // Lights that are brightened before the gather: closed forms.
-#include "deep/highlight_gain.h"
+#include "deep/recolor.h"
 #include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "deep/order.h"
+#include "deep/tidy.h"
 #include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "deep/packed_view.h"
+#include "deep/view_samples.h"
 #include "support/views.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 #include "base/subpixels.h"
 #include "deep/flatten.h"
-#include "deep/order.h"
-#include "deep/pad.h"
 #include "deep/proxy.h"
+#include "deep/tidy.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Deep samples with the colours of a flat picture: closed forms, and a picture composited again with the slow
 // composite.
-#include "base/coverage.h"
+#include "base/light.h"
 #include "deep/flatten.h"
-#include "deep/order.h"
 #include "deep/recolor.h"
 #include "deep/tidy.h"
 #include "support/composite.h"

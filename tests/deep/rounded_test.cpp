@@ -1,6 +1,6 @@
 #include "base/channel_kind.h"
-#include "deep/order.h"
 #include "deep/rounded.h"
+#include "deep/tidy.h"
 #include "lens/thin_lens.h"
 #include "support/lens_ldi.h"
 #include "warp/warp.h"

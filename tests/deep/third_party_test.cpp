@@ -1,7 +1,6 @@
 // Deep files by others, if they are there: read, tidied, clustered, written, flattened.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/order.h"
 #include "deep/tidy.h"
 #include "io/exr/exr_deep.h"
 #include "support/scratch_folder.h"

@@ -1,6 +1,5 @@
 #include "deep/flatten.h"
 #include "deep/ldi.h"
-#include "deep/order.h"
 #include "deep/tidy.h"
 #include "support/composite.h"
 #include "support/ldi_samples.h"

@@ -1,4 +1,4 @@
-#include "deep/unmixing.h"
+#include "deep/mixed_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Denoised views regain details that all views show, and small lamps, but not noise or fireflies.
-#include "denoised/kept_details.h"
+#include "denoised/denoised_views.h"
 #include "finish/synthetic.h"
 
 #include <gtest/gtest.h>

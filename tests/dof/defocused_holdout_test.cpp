@@ -1,7 +1,7 @@
 // A holdout that is out of focus too: the picture and the holdout's own share add up to the scene of both.
 #include "deep/merge.h"
 #include "deep/tidy.h"
-#include "dof/defocused_holdout.h"
+#include "dof/gather_picture.h"
 #include "dof/methods.h"
 #include "support/lens_ldi.h"
 

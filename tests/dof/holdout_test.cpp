@@ -1,6 +1,6 @@
 // A picture with a holdout, compared with the closed forms of one surface in front of another.
 #include "deep/flatten.h"
-#include "deep/holdout.h"
+#include "deep/merge.h"
 #include "dof/lens/lens_gather.h"
 #include "support/lens_ldi.h"
 

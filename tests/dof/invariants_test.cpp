@@ -1,5 +1,5 @@
 // Properties of the lens gather for any picture, checked on random LDIs.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "deep/tidy.h"
 #include "dof/lens/lens_gather.h"
 #include "support/lens_ldi.h"

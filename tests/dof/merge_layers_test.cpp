@@ -1,5 +1,4 @@
 #include "deep/flatten.h"
-#include "deep/order.h"
 #include "deep/tidy.h"
 #include "dof/gather_picture.h"
 #include "dof/merge_layers.h"

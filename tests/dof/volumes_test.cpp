@@ -1,7 +1,7 @@
 #include "deep/packed_rows.h"
 #include "dof/gather_picture.h"
 #include "dof/gather_rows.h"
-#include "dof/volumes.h"
+#include "dof/merge_layers.h"
 #include "support/ldi_samples.h"
 #include "support/lens_ldi.h"
 

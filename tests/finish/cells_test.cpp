@@ -1,5 +1,5 @@
 // Cells of pixels: means over them, and interpolation between them.
-#include "finish/cells.h"
+#include "finish/window_means.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Classes of equal weight along a measure.
-#include "finish/classes.h"
+#include "finish/window_means.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // How rays are divided between views and renders through the lens.
 #include "base/error.h"
-#include "finish/divide_rays.h"
+#include "plan/plan.h"
 
 #include <gtest/gtest.h>
 

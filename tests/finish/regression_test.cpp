@@ -1,5 +1,5 @@
 // Regressions of rays on a guide: closed forms.
-#include "finish/regression.h"
+#include "finish/finish.h"
 #include "finish/synthetic.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Means over similar pixels: some pictures stay as they are, and edges of the guide are kept.
-#include "finish/similar_pixels.h"
+#include "finish/finish.h"
 #include "finish/synthetic.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "finish/synthetic.h"
 
-#include "base/tone_map.h"
+#include "base/light.h"
 #include "finish/trust.h"
 #include "finish/window_means.h"
 

@@ -1,5 +1,4 @@
 // Means over windows, compared with means computed pixel by pixel.
-#include "finish/colours.h"
 #include "finish/window_means.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 #include "viewing/asked.h"
 
 #include "fuzz/fuzz.h"
-#include "viewing/view_words.h"
 
 using namespace sparselens;
 

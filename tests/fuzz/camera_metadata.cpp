@@ -1,7 +1,6 @@
 // Any values and texts as the camera in a header: read, resolved to a lens, written, read again.
 #include "fuzz/fuzz.h"
-#include "io/camera/camera_read.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 

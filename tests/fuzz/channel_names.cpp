@@ -3,10 +3,8 @@
 // other lines are attributes.
 #include "base/matte.h"
 #include "fuzz/fuzz.h"
-#include "io/exr/depth_channel.h"
-#include "io/exr/exr_beauty.h"
+#include "io/exr/exr_channels.h"
 #include "io/exr/exr_common.h"
-#include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
 #include "io/exr/luminance_chroma.h"
 

@@ -3,7 +3,6 @@
 #include "fuzz/fuzz.h"
 #include "harness/commands/frames.h"
 #include "harness/tool.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 #include "options/warp_options.h"
 

@@ -1,15 +1,13 @@
 // Any bytes as an LDI: read, sanitized, tidied, clustered, flattened.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/front_samples.h"
-#include "deep/order.h"
 #include "deep/sanitize.h"
 #include "deep/tidy.h"
 #include "fuzz/fuzz.h"
-#include "io/camera/camera_read.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_deep.h"
-#include "io/files/memory_file.h"
 #include "io/files/memory_limit.h"
+#include "io/files/text_file.h"
 
 using namespace sparselens;
 

@@ -3,8 +3,8 @@
 #include "deep/view_samples.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/memory_file.h"
 #include "io/files/memory_limit.h"
+#include "io/files/text_file.h"
 
 using namespace sparselens;
 

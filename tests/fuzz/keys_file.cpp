@@ -1,7 +1,7 @@
 // Any bytes as a file of keys of each kind: read, and evaluated at some frames. The values must read as the same kind.
 #include "fuzz/fuzz.h"
 #include "harness/commands/keys.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "io/lens_file.h"
 
 #include "fuzz/fuzz.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 
 using namespace sparselens;
 

@@ -3,7 +3,7 @@
 
 #include "base/grid.h"
 #include "fuzz/fuzz.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 
 using namespace sparselens;
 

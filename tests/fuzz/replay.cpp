@@ -1,7 +1,7 @@
 // Runs a fuzz target without libFuzzer, on each file of a corpus and on random mutations of it.
 //
 //   fuzz-TARGET FOLDER MUTATIONS
-#include "base/random.h"
+#include "base/numbers.h"
 #include "fuzz/fuzz.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "chain/usd_shot.h"
 #include "fuzz/fuzz.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 #include "io/usd/usd_camera.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "harness/frame_run.h"
-#include "harness/in_turn.h"
+#include "harness/progress_lines.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "deep/build.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/open_ldi.h"

@@ -1,7 +1,6 @@
 #include "base/error.h"
 #include "lens/aperture.h"
 #include "lens/lens_samples.h"
-#include "lens/outline.h"
 #include "lens/polygon_pixels.h"
 
 #include <gtest/gtest.h>

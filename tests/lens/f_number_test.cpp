@@ -1,4 +1,4 @@
-#include "lens/f_number.h"
+#include "lens/thin_lens.h"
 
 #include <gtest/gtest.h>
 

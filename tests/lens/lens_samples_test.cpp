@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/numbers.h"
 #include "lens/lens_points.h"
 #include "lens/lens_samples.h"
 

@@ -1,5 +1,5 @@
 // The reach of light with looks: closed forms.
-#include "lens/light_reach.h"
+#include "lens/psf.h"
 
 #include <gtest/gtest.h>
 

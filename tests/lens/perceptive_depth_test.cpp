@@ -1,4 +1,3 @@
-#include "lens/perceptive_depth.h"
 #include "lens/thin_lens.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lens/sharp_range.h"
+#include "lens/thin_lens.h"
 
 #include <gtest/gtest.h>
 

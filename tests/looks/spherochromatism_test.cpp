@@ -2,9 +2,9 @@
 #include "deep/flatten.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/lamp_spread.h"
+#include "looks/table.h"
 #include "support/deep_scenes.h"
 #include "support/lens_ldi.h"
-#include "view/look_values.h"
 
 #include <gtest/gtest.h>
 

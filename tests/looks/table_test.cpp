@@ -1,6 +1,5 @@
 // What holds for every look of the table.
 #include "looks/table.h"
-#include "view/look_values.h"
 
 #include <gtest/gtest.h>
 

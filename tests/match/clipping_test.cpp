@@ -1,5 +1,5 @@
-#include "match/clipping.h"
 #include "match/patterns.h"
+#include "match/tone_curve.h"
 
 #include <gtest/gtest.h>
 

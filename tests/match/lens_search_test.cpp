@@ -1,4 +1,4 @@
-#include "match/evidence.h"
+#include "match/blocks.h"
 #include "match/lens_search.h"
 #include "match/patterns.h"
 

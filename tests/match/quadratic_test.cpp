@@ -1,4 +1,4 @@
-#include "match/quadratic.h"
+#include "match/measure_lens.h"
 
 #include <gtest/gtest.h>
 

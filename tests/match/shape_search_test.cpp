@@ -1,4 +1,4 @@
-#include "lens/aperture_area.h"
+#include "lens/lens_looks.h"
 #include "match/patterns.h"
 #include "match/shape_search.h"
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "base/tone_map.h"
+#include "base/light.h"
 #include "measure/image_error.h"
 #include "measure/ssim_reference.h"
 

@@ -1,4 +1,4 @@
-#include "deep/front_samples.h"
+#include "deep/flatten.h"
 #include "measure/regions.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Structural similarity in the form of the paper (see measure/ssim.h), slow and simple.
+// Structural similarity in the form of the paper (see measure/image_error.h), slow and simple.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "measure/ssim.h"
+#include "measure/image_error.h"
 #include "measure/ssim_reference.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The steadiness of sequences: closed forms, for chosen tone-mapped values.
+#include "measure/figures_text.h"
 #include "measure/temporal_error.h"
-#include "measure/temporal_text.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

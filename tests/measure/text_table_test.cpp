@@ -1,4 +1,4 @@
-#include "measure/text_table.h"
+#include "measure/figures_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "options/parameter_options.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "pictures/picture.h"
 
-#include "io/files/open_exr.h"
+#include "io/exr/exr_common.h"
 
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>

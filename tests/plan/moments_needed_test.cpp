@@ -1,4 +1,4 @@
-#include "plan/moments_needed.h"
+#include "plan/block_motion.h"
 #include "support/cloth.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The predicted noise of rays through the lens: closed forms, and its limits.
-#include "base/tone_map.h"
+#include "base/light.h"
 #include "plan/noise.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/tone_map.h"
+#include "base/light.h"
 #include "plan/noise.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "base/error.h"
-#include "io/cameras_file.h"
 #include "io/files/text_file.h"
-#include "plan/plan_cameras.h"
+#include "io/plan_file.h"
+#include "plan/plan.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "base/random.h"
-#include "plan/rectangles.h"
+#include "base/numbers.h"
+#include "plan/disocclusion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-# Each threshold of a stage is in its tuning.h, and the definition of a lamp in lens/lamp.h, with its own name, and is
+# Each threshold of a stage is in its tuning.h, and the definition of a lamp in lens/lamp_spread.h, with its own name, and is
 # used; rules that shaders share are in src/kernels. Other constants with a number as their value are listed here with a
 # reason.
 #   bash tuning.sh
@@ -17,33 +17,33 @@ dof/footprints/interpolation_blur.h largest_weight
 dof/gather_rows.cpp beside highlight_rows most rows_at_once
 dof/border_reach.cpp rows_at_once
 dof/lens/beyond/beyond_frame.cpp cell
-dof/lens/block_finder.cpp blocks_in_run
-dof/lens/block_footprints.cpp in_step
-dof/lens/bright_share.h cell octaves
-dof/lens/cell_rows.cpp half
+dof/lens/tile_plan.cpp blocks_in_run
+dof/lens/shadow_areas.cpp in_step
+dof/lens/highlights.h cell octaves
+dof/lens/see.cpp half
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/highlight_shadows.cpp rounding
 dof/lens/shadow_areas.cpp least_range most_steps rounding
-dof/lens/shadow_edges.cpp rounding
+dof/lens/shadow_search.cpp rounding
 dof/lens/shadow_areas.h size
-dof/lens/shadow_lists.cpp all_blocks longest_of_many
-dof/lens/shadow_lists.h none
+dof/lens/shadow_search.cpp all_blocks longest_of_many
+dof/lens/shadow_search.h none
 dof/lens/shadow_search.cpp of_edge
 dof/lens/shadow_search.h beside
-dof/lens/filler_samples.cpp pixels_at_once
+dof/lens/fillers.cpp pixels_at_once
 dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
 dof/lens/tile_plan.h final_points largest_coc normal_points
-dof/lens/lens_tiles.h lens_tile_size
-dof/lens/lights.h sides
+dof/lens/lens_gather.h lens_tile_size
+dof/lens/weigh.h sides
 dof/lens/sample_blocks.h background size
 dof/lens/sharpen.cpp noise_block
 dof/lens/tile_projection.cpp rounding
-dof/lens_mattes.cpp ids_at_once
+dof/methods.cpp ids_at_once
 dof/merge_layers.cpp pixels_at_once
 dof/merge_layers.h layer_tolerance_px
-dof/selective/blend.h sums_before_colours
+dof/selective/splats.h sums_before_colours
 dof/selective/selective.cpp at_once
 dof/selective/splats.cpp square_size
 dof/selective/splats.h too_little
@@ -51,28 +51,28 @@ plan/block_motion.cpp block_size
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
 warp/images/matched_view.h cutout
-warp/images/neighbours.h image_block reach
+warp/images/matched_view.h image_block reach
 warp/images/patch_comparison.cpp alike
 warp/images/patch_comparison.h patch_reach patch_row
-warp/images/image_search.cpp band_rows
+warp/images/image_sweep.cpp band_rows
 warp/images/image_sweep.cpp rounding rows
 warp/images/image_depths.cpp band_rows
 warp/lamps/lamp_light.cpp farthest_move
-warp/reproject.cpp far_off
+warp/reprojected_views.cpp far_off
 warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
 match/blocks.cpp first_tint nuisances
 match/blocks.h most_changes
 match/measure_lens.cpp coc_change ends_change first_motion
-match/quadratic.h quadratic_terms
+match/measure_lens.h quadratic_terms
 match/smooth_keys.cpp second
-finish/cells.h run_length
-finish/classes.cpp bins
-finish/error_estimate.cpp fastest slowest
+finish/window_means.h run_length
+finish/window_means.cpp bins
+finish/finish_picture.cpp fastest slowest
 finish/finish_picture.cpp largest
-finish/regression.cpp least_square
-finish/classes.cpp side
-finish/similar_pixels.cpp columns most_channels rows
+finish/finish.cpp least_square
+finish/window_means.cpp side
+finish/finish.cpp columns most_channels rows
 finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy
 finish/window_means.cpp lanes
 '
@@ -117,7 +117,7 @@ if gone=$(sort -u <<<"$found" | comm -13 - <(echo "$exempt") | grep .); then fau
 $gone"; fi
 
 # NAME and the struct's name, for all members.
-members=$(for file in src/lens/lamp.h $(sed -E 's|([a-z]+)|src/\1/tuning.h|g' <<<"$stages"); do
+members=$(for file in src/lens/lamp_spread.h $(sed -E 's|([a-z]+)|src/\1/tuning.h|g' <<<"$stages"); do
     struct=$(sed -nE 's/^struct ([A-Za-z]+Tuning) \{/\1/p' "$file")
     sed -nE "s/^ +static constexpr [a-z:_0-9<>, ]+ ([a-z_0-9]+)( = |\{).*/\1 $struct/p" "$file"
 done)

@@ -1,5 +1,5 @@
 // The rows of a rolling shutter, whose weights are integrals in closed form.
-#include "shutter/shutter_curve.h"
+#include "shutter/shutter_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "lens/aperture.h"
-#include "shutter/shared_points.h"
+#include "shutter/shutter_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "io/files/text_file.h"
-#include "io/shutter_file.h"
+#include "io/moment_files.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>

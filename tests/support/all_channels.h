@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "base/random.h"
+#include "base/numbers.h"
 
 #include <bit>
 #include <functional>

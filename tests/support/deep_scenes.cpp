@@ -1,7 +1,7 @@
 #include "support/deep_scenes.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/random.h"
 
 #include <array>
 #include <cmath>

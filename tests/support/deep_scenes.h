@@ -4,7 +4,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // Values of looks for tests: given(std::pair(&LookValues::blades, 5), ...).
 #pragma once
 
-#include "view/look_values.h"
+#include "looks/table.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "support/ldi_samples.h"
 
-#include "base/random.h"
+#include "base/numbers.h"
 #include "deep/build.h"
 
 #include <algorithm>

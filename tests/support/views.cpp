@@ -1,6 +1,6 @@
 #include "support/views.h"
 
-#include "base/random.h"
+#include "base/numbers.h"
 
 #include <limits>
 

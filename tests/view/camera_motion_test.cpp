@@ -1,4 +1,4 @@
-#include "view/camera_motion.h"
+#include "view/view_mapping.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "support/scratch_folder.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <gtest/gtest.h>
 

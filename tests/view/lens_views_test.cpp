@@ -1,8 +1,6 @@
 #include "base/error.h"
 #include "support/scratch_folder.h"
 #include "view/lens_views.h"
-#include "view/place_views.h"
-#include "view/projection.h"
 
 #include <gtest/gtest.h>
 

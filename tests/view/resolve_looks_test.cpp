@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "support/given_looks.h"
 #include "support/scratch_folder.h"
-#include "view/resolve_looks.h"
+#include "view/resolve_lens.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "support/ldi_samples.h"
 #include "support/views.h"
-#include "view/speckles.h"
+#include "view/flat_pixels.h"
 
 #include <gtest/gtest.h>
 

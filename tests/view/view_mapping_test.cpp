@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/numbers.h"
 #include "view/view_mapping.h"
 
 #include <gtest/gtest.h>

@@ -2,10 +2,9 @@
 #include "support/ldi_samples.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
+#include "viewing/asked.h"
+#include "viewing/reel.h"
 #include "viewing/shot.h"
-#include "viewing/shot_frame.h"
-#include "viewing/view_facts.h"
-#include "viewing/view_words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

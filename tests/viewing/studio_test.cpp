@@ -1,5 +1,4 @@
 #include "base/error.h"
-#include "viewing/crew.h"
 #include "viewing/studio.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "viewing/view_words.h"
+#include "viewing/asked.h"
 
 #include <gtest/gtest.h>
 

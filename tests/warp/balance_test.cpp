@@ -1,5 +1,5 @@
 #include "support/views.h"
-#include "warp/balance.h"
+#include "warp/coverage.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Surfaces that end behind something nearer: a board behind a plate, before a wall.
-#include "lens/perceptive_depth.h"
+#include "lens/thin_lens.h"
 #include "support/views.h"
 #include "warp/warp.h"
 

@@ -1,6 +1,6 @@
 // Deep views in the warp: alone, beside flat ones, at the centre and on the rim; results in closed form.
-#include "deep/packed_view.h"
 #include "deep/tidy.h"
+#include "deep/view_samples.h"
 #include "support/ldi_samples.h"
 #include "warp/warp_fixture.h"
 

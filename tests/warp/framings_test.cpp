@@ -3,7 +3,7 @@
 #include "deep/view_samples.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
-#include "warp/reproject.h"
+#include "warp/reprojected_views.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

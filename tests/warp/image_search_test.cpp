@@ -1,7 +1,7 @@
 // For near surfaces, a smaller picture first selects which depths to try: its results compared with trying all.
 #include "support/views.h"
-#include "warp/images/image_search.h"
-#include "warp/images/neighbours.h"
+#include "warp/images/image_sweep.h"
+#include "warp/images/matched_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // Walls that are mirrors: the views show that their images are at another depth than the walls.
 #include "support/views.h"
 #include "warp/images/image_depths.h"
-#include "warp/images/show_images.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

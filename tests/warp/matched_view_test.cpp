@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/numbers.h"
 #include "support/views.h"
 #include "warp/images/matched_view.h"
 

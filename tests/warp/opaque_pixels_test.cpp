@@ -3,7 +3,7 @@
 #include "dof/methods.h"
 #include "lens/lens_samples.h"
 #include "support/mattes.h"
-#include "warp/opaque_pixels.h"
+#include "warp/coverage.h"
 #include "warp/warp_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Comparison of blocks of two views, checked pixel by pixel.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "support/views.h"
 #include "warp/images/patch_comparison.h"
-#include "warp/images/robust_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "deep/view_samples.h"
 #include "lens/thin_lens.h"
 #include "support/views.h"
-#include "warp/reproject.h"
+#include "warp/reprojected_views.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "base/coverage.h"
+#include "base/light.h"
 #include "deep/flatten.h"
-#include "deep/order.h"
+#include "deep/tidy.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
 #include "warp/silhouettes.h"

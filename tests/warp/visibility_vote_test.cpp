@@ -1,5 +1,5 @@
 #include "support/views.h"
-#include "warp/visibility_vote.h"
+#include "warp/coverage.h"
 
 #include <gtest/gtest.h>
 

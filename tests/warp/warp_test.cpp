@@ -1,9 +1,9 @@
 // The samples of a warp: from which views they come, and where they are.
 #include "deep/flatten.h"
-#include "deep/order.h"
+#include "deep/tidy.h"
 #include "deep/view_samples.h"
-#include "warp/reproject.h"
-#include "warp/visibility_vote.h"
+#include "warp/coverage.h"
+#include "warp/reprojected_views.h"
 #include "warp/warp_fixture.h"
 
 #include <gtest/gtest.h>
@@ -169,7 +169,7 @@ TEST(Warp, AFilmBehindABarKeepsItsCoverage) {
 
 // Extra vision means showing surfaces that no view saw. Every sample's colour must be within the colours of view pixels
 // that land within a pixel of it, on its surface (at most surface_px from one of its samples, so twice that from their
-// mean). Rim views that look past a pixel's last sample fill the pixel up (opaque_pixels.h).
+// mean). Rim views that look past a pixel's last sample fill the pixel up (coverage.h).
 TEST(Warp, NothingIsInvented) {
     const Windows w = windows_of_size(40, 30);
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)})

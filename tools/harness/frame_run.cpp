@@ -1,7 +1,28 @@
 #include "harness/frame_run.h"
 
+#include "base/error.h"
+#include "harness/commands/each_picture.h"
+#include "harness/commands/frames.h"
+#include "harness/commands/named_files.h"
+#include "harness/history.h"
+#include "harness/process.h"
+#include "harness/progress_lines.h"
+#include "harness/tool.h"
+#include "io/exr/exr_parts.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
 #include <system_error>
+#include <utility>
 
 namespace sparselens {
 
@@ -68,6 +89,299 @@ int FrameRun::worst() {
 bool FrameRun::stopped() const {
     const std::lock_guard lock(guard_);
     return stopped_;
+}
+
+namespace {
+
+struct FrameOptions {
+    std::string frames; // read by FrameCommands
+    std::string stats;
+    bool skip_bad_frames = false, update = false;
+    ProgressFormat progress = ProgressFormat::terminal;
+};
+
+const std::map<std::string, ProgressFormat> &progress_formats() {
+    static const std::map<std::string, ProgressFormat> formats{
+        {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
+    return formats;
+}
+
+// The beginning of error messages, from words that are not parsed yet: a farm must understand errors in the words too.
+std::string prefix_of(const std::string &name, const std::vector<std::string> &words) {
+    const auto format = progress_formats().find(value_of("--progress", words));
+    return error_prefix(format == progress_formats().end() ? ProgressFormat::terminal : format->second, name);
+}
+
+void add_frame_options(CLI::App &app, FrameOptions &options) {
+    app.add_option(
+           "--frames", options.frames,
+           "Frames to process, e.g. 1-100x2 or 1,3,5-9; file names may hold #### (also #: four digits) or "
+           "%04d, and values may be keyed, e.g. 1:5.0,24:2.0")
+        ->type_name("RANGE")
+        ->group("Frames");
+    app.add_flag("--skip-bad-frames", options.skip_bad_frames,
+                 "Continue after a frame that fails, and exit with code 1 at the end")
+        ->group("Frames");
+    app.add_flag("-u,--update", options.update,
+                 "Skip frames whose output is complete, newer than the input, and made by the same command")
+        ->group("Frames");
+    app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
+        ->type_name("FILE");
+    app.add_option("--progress", options.progress,
+                   "Print progress lines for a render farm on stderr; openjd: status and failures too "
+                   "(default: none)")
+        ->type_name("plain|alf|openjd")
+        ->transform(words(progress_formats()))
+        ->group("Frames");
+}
+
+void explain_all_pictures(CLI::App &app) {
+    for (const EachPicture *each : {&each_view(), &each_layer()}) {
+        CLI::Option *option = app.get_option_no_throw(each->option);
+        if (!option) continue;
+        std::string text = option->get_description();
+        text.insert(text.rfind(" (default"),
+                    fmt::format("; all: one run for each {}; its name replaces {} in file names", each->noun,
+                                each->placeholder));
+        option->description(text);
+    }
+}
+
+// The parsed command line of the tool at one frame.
+struct FrameCommand {
+    CLI::App app;
+    FrameOptions frames;
+    ProcessOptions process;
+    Job job;
+
+    FrameCommand(const std::string &name, const std::string &description, const Prepare &prepare)
+        : app(description, name) {
+        job = prepare(app);
+        add_frame_options(app, frames);
+        add_process_options(app, process);
+        add_memory_option(app, process);
+        explain_all_pictures(app);
+    }
+};
+
+using CommandPtr = std::unique_ptr<FrameCommand>;
+
+std::string frame_name(const FrameCommands &commands, std::size_t i) {
+    return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
+}
+
+// Whether -u skips the frame. A frame is not skipped if it adds to an output that holds all frames.
+bool is_up_to_date(const FrameCommand &command, const ToolContext &tool) {
+    const CLI::App &parsed = command.app;
+    NamedFiles files = named_files(parsed);
+    if (command.job.also_reads)
+        for (std::string &path : command.job.also_reads(tool)) files.inputs.push_back({"", std::move(path)});
+    if (std::ranges::any_of(files.outputs, [](const NamedFile &file) { return holds_all_frames(file.path); }))
+        return false;
+    const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
+    if (found == Freshness::stale) return false;
+    const std::string &output = files.outputs.front().path;
+    if (found == Freshness::not_compared)
+        warn_once(tool, "-u",
+                  "-u did not compare the options of " + output +
+                      " with those given, because no command line is recorded for it");
+    tool.say(output + " is up to date");
+    return true;
+}
+
+using Tool = std::shared_ptr<ToolContext>;
+
+// Prints a stage for a farm. Output of one frame precedes that of the next, so that the percentages grow.
+void say_stage(ProgressFormat format, const ToolContext &tool, const char *stage) {
+    if (format == ProgressFormat::terminal) return;
+    tool.progress->start(stage, 1);
+    tool.progress->advance();
+}
+
+bool has_threads() {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1;
+}
+
+// The largest memory use of the process so far, in bytes.
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+// The number of bytes that each frame reads from files.
+std::vector<std::uint64_t> bytes_read(const std::vector<NamedFiles> &frames) {
+    std::vector<std::uint64_t> bytes;
+    for (const NamedFiles &frame : frames) {
+        bytes.push_back(0);
+        for (const NamedFile &input : frame.inputs) {
+            std::error_code unknown;
+            const std::uintmax_t size = std::filesystem::file_size(input.path, unknown);
+            if (!unknown) bytes.back() += size;
+        }
+    }
+    return bytes;
+}
+
+Tool context_of(const std::string &name, const FrameCommand &command) {
+    const auto tool = std::make_shared<ToolContext>();
+    tool->tool_name = name;
+    tool->threads = command.process.threads;
+    tool->verbose = command.process.verbose;
+    tool->max_memory = command.process.max_memory;
+    tool->stats = command.frames.stats;
+    return tool;
+}
+
+// Runs all frames of one command line.
+int run_words(const std::string &name, const std::string &description, const std::vector<std::string> &words,
+              const Prepare &prepare) {
+    const std::string prefix = prefix_of(name, words);
+    std::optional<FrameCommands> commands;
+    int code = exit_code_of(prefix, [&] { commands.emplace(words); });
+    if (code != 0) return code;
+    const std::size_t count = commands->size();
+    const auto parse = [&](std::size_t i, CommandPtr &command) {
+        command = std::make_unique<FrameCommand>(name, description, prepare);
+        return parse_words(command->app, commands->words(i), prefix + frame_name(*commands, i));
+    };
+    // Usage errors of any frame are reported before work on the first frame begins.
+    CommandPtr first, other;
+    std::vector<NamedFiles> files;
+    std::vector<std::optional<std::string>> keeps;
+    for (std::size_t i = 0; i < count; ++i) {
+        CommandPtr &parsed = i == 0 ? first : other;
+        if (const auto answered = parse(i, parsed)) return *answered;
+        files.push_back(named_files(parsed->app));
+        keeps.push_back(parsed->job.keeps ? std::optional(parsed->job.keeps()) : std::nullopt);
+    }
+    code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
+    if (code != 0) return code;
+    for (const std::string &text : commands->warnings()) warn(*context_of(name, *first), text);
+
+    const ProgressFormat format = first->frames.progress;
+    const Process process(first->process, *context_of(name, *first));
+    const FrameNeighbours neighbours(std::move(keeps));
+    const std::uint64_t memory = memory_for_frames(first->process.max_memory);
+    TwoAtOnce two_at_once(bytes_read(files), memory);
+    FrameRun run(first->frames.skip_bad_frames);
+    const auto warned = std::make_shared<std::set<std::string>>();
+    bool go_on = true;
+    for (std::size_t i = 0; i < count && go_on; ++i) {
+        CommandPtr parsed;
+        parse(i, parsed);
+        const std::shared_ptr<FrameCommand> command = std::move(parsed);
+        const Tool tool = context_of(name, *command);
+        if (commands->is_range()) tool->frame = commands->number(i);
+        tool->other_frame = [all = &*commands, i](const std::string &word, int later) {
+            return all->other_frame(i, word, later);
+        };
+        tool->keeps = neighbours.keeps_for_next(i);
+        const bool two_fit = two_at_once.fit(i, peak_memory());
+        tool->warned = warned;
+        tool->turn = std::make_shared<InTurn>(false);
+        tool->command_line = command_line(name, commands->words(i));
+        tool->progress = progress_of(format, name, {i, count, tool->frame}, tool->turn, [&run] {
+            if (run.stopped()) throw Error("a frame before it failed");
+        });
+        const bool aside = i + 1 < count && has_threads();
+        const auto work = [=] {
+            if (!command->frames.update || !is_up_to_date(*command, *tool)) command->job.work(*tool);
+            if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
+        };
+        const auto last_step = [=] {
+            if (const auto step = std::exchange(*tool->last_step, {})) step();
+            if (!aside) say_stage(format, *tool, "done");
+        };
+        const auto end = [=, frame_prefix = prefix + frame_name(*commands, i)](std::exception_ptr failure) {
+            return exit_code_of(frame_prefix, [&] {
+                if (failure) std::rethrow_exception(failure);
+                last_step();
+            });
+        };
+        go_on = run.go_on({.work = work,
+                           .take_turn = [tool] { tool->turn->come(); },
+                           .end = end,
+                           .beside = two_fit && neighbours.are_apart(i),
+                           .aside = aside});
+    }
+    return run.worst();
+}
+
+// The names of the views or layers in the first input of the command.
+std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::App &parsed) {
+    const std::vector<NamedFile> inputs = named_files(parsed).inputs;
+    const auto input = std::ranges::find_if(
+        inputs, [](const NamedFile &file) { return file.option == "IN" || file.option == "views"; });
+    if (input == inputs.end() || input->path == "-")
+        throw UsageError(fmt::format("{} all needs the name of the input, because it reads it once per {}",
+                                     each.option, each.noun));
+    const CLI::Option *view = parsed.get_option_no_throw(each_view().option);
+    const std::string of_view = view && view->count() > 0 ? view->as<std::string>() : std::string();
+    const std::vector<std::string> names =
+        &each == &each_view() ? stereo_views(input->path) : picture_layers(input->path, of_view);
+    if (names.empty())
+        throw Error(input->path +
+                    (&each == &each_view() ? ": it names no stereo views"
+                                           : ": it has one picture, outside of all layers") +
+                    "; leave out " + each.option + " all");
+    return names;
+}
+
+// Expands a command line that asks for all views, layers or moments into one command for each. `answered` is the exit
+// code if
+// --help or the like, or an error in the words, ended it.
+struct EachCommand {
+    std::vector<std::vector<std::string>> commands;
+    std::optional<int> answered = {};
+
+    void expand(const EachPicture &each, const std::string &name, const std::string &description,
+                const Prepare &prepare) {
+        std::vector<std::vector<std::string>> expanded;
+        for (const std::vector<std::string> &words : commands) {
+            if (!asks_for_all(each, words)) {
+                expanded.push_back(words);
+                continue;
+            }
+            FrameCommand first(name, description, prepare);
+            answered = parse_words(first.app, FrameCommands(words).words(0), prefix_of(name, words));
+            if (answered) return;
+            for (const std::string &picture : pictures_of_input(each, first.app))
+                expanded.push_back(words_for_one(each, words, picture));
+        }
+        commands = std::move(expanded);
+    }
+
+    // `joined`: the tool makes one output of all moments.
+    void expand_moments(bool joined) {
+        std::vector<std::vector<std::string>> expanded;
+        for (const std::vector<std::string> &words : commands)
+            if (asks_for_each_moment(words))
+                std::ranges::move(words_for_moments(words), std::back_inserter(expanded));
+            else {
+                if (!joined) refuse_moments(words);
+                expanded.push_back(words);
+            }
+        commands = std::move(expanded);
+    }
+};
+
+} // namespace
+
+int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
+               const Prepare &prepare) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    EachCommand all{{words}};
+    int worst = exit_code_of(prefix_of(name, words), [&] {
+        for (const EachPicture *each : {&each_view(), &each_layer()})
+            if (!all.answered) all.expand(*each, name, description, prepare);
+        if (!all.answered) all.expand_moments(FrameCommand(name, description, prepare).job.joins_moments);
+    });
+    if (all.answered) return *all.answered;
+    if (worst != 0) return worst;
+    for (const auto &command : all.commands)
+        worst = std::max(worst, run_words(name, description, command, prepare));
+    return worst;
 }
 
 } // namespace sparselens

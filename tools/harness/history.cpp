@@ -2,9 +2,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "harness/one_line.h"
-#include "io/exr/exr_header_check.h"
-#include "io/exr/header_values.h"
+#include "harness/progress_lines.h"
+#include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
 
 #include <CLI/CLI.hpp>

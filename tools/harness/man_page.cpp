@@ -1,7 +1,7 @@
 #include "harness/man_page.h"
 
 #include "base/text.h"
-#include "harness/examples.h"
+#include "harness/tool.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "harness/man_page.h"
-#include "harness/one_line.h"
+#include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
 

@@ -2,14 +2,47 @@
 #pragma once
 
 #include "base/progress.h"
-#include "harness/in_turn.h"
+#include "base/text.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
+
+// Prints the messages of frames in order: messages of a later frame are kept until its turn.
+class InTurn {
+public:
+    explicit InTurn(bool come) : come_(come) {}
+
+    // Calls `line` now or when the turn comes, one at a time. `line` must not call say().
+    void say(std::function<void()> line) {
+        const std::lock_guard lock(guard_);
+        if (come_)
+            line();
+        else
+            kept_.push_back(std::move(line));
+    }
+
+    void come() {
+        const std::lock_guard lock(guard_);
+        come_ = true;
+        for (const auto &line : std::exchange(kept_, {})) line();
+    }
+
+private:
+    std::mutex guard_; // for the members below, and for printing
+    bool come_;
+    std::vector<std::function<void()>> kept_;
+};
 
 enum class ProgressFormat {
     terminal, // one line that is overwritten, if stderr is a terminal
@@ -41,5 +74,24 @@ std::string error_prefix(ProgressFormat format, const std::string &tool_name);
 // farm, the percentages refer to all frames and never decrease.
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames,
                                       const std::shared_ptr<InTurn> &turn, Progress::Watch watch = {});
+
+// Prepares text for a terminal: messages, and text from other programs or files.
+
+// Returns the text as one line without control characters, whatever a library's message or the names in a file contain.
+inline std::string one_line(std::string text) {
+    for (char &c : text)
+        if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+// Spells the parameters in a message (error.h) as options: --depth inverse.
+inline std::string with_options(std::string_view message) {
+    return spelled(message, [](const std::string &name, const std::string &value) {
+        std::string option = "--" + name;
+        std::ranges::replace(option, '_', '-');
+        return value.empty() ? option : option + " " + value;
+    });
+}
 
 } // namespace sparselens

@@ -1,14 +1,19 @@
 #include "harness/tool.h"
 
-#include "chain/words.h"
+#include "base/error.h"
+#include "chain/notices.h"
 #include "harness/commands/named_files.h"
 #include "harness/history.h"
-#include "harness/one_line.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 namespace sparselens {
 
@@ -72,6 +77,41 @@ int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &w
         work(tool);
         if (*tool.last_step) (*tool.last_step)();
     });
+}
+
+namespace {
+const std::string heading = "Examples:\n";
+}
+
+void add_examples(CLI::App &app, std::initializer_list<Example> examples) {
+    std::string text = heading;
+    for (const auto &[purpose, command] : examples)
+        text += std::string("  ") + purpose + ":\n      " + command + "\n";
+    app.footer(text);
+#if CLI11_VERSION_MAJOR > 2 || CLI11_VERSION_MINOR >= 6
+    app.get_formatter()->enable_footer_formatting(false); // the formatter would join lines
+#endif
+}
+
+std::string examples_text(const CLI::App &app) {
+    const std::string text = app.get_footer();
+    return text.starts_with(heading) ? text.substr(heading.size()) : "";
+}
+
+void write_stats(const ToolContext &tool, const Stats &fields) {
+    if (tool.stats.empty()) return;
+    Stats line{{"tool", tool.tool_name}};
+    if (tool.frame) line["frame"] = *tool.frame;
+    line.update(fields);
+    const std::string text = line.dump() + '\n';
+    const bool to_stderr = tool.stats == "-";
+    const int file =
+        to_stderr ? STDERR_FILENO : open(tool.stats.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    // One call, so that lines of stages that share the file do not mix.
+    const bool written = file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
+    const int reason = errno;
+    if (!to_stderr && file >= 0) close(file);
+    if (!written) throw Error(tool.stats + ": cannot write: " + std::strerror(reason));
 }
 
 } // namespace sparselens

@@ -4,10 +4,17 @@
 #include "base/progress.h"
 #include "chain/notices.h"
 #include "harness/commands/cli.h"
-#include "harness/in_turn.h"
+#include "harness/progress_lines.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -87,5 +94,42 @@ void warn(const ToolContext &tool, const std::string &text);
 // Prints the warning for the first frame of a range that has one of this kind (a word); for later frames only with
 // --verbose. Not for last steps, which run beside the next frame.
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text);
+
+struct Example {
+    const char *purpose; // a sentence without its full stop
+    const char *command; // as typed, in one line
+};
+
+void add_examples(CLI::App &app, std::initializer_list<Example> examples);
+
+// The examples of `app` as text, two lines each, without the heading; empty if it has none.
+std::string examples_text(const CLI::App &app);
+
+// --stats: writes statistics on the work that a stage left out, as one line of JSON per stage and frame, so that the
+// stages of a pipe can share a file. docs/stats.md explains the keys.
+using Stats = nlohmann::ordered_json;
+
+// Appends a line with the name of the tool, the frame if there are several, and `fields` to the file that --stats names
+// (- for stderr). Does nothing without --stats. Throws Error if the file cannot be written.
+void write_stats(const ToolContext &tool, const Stats &fields);
+
+// Options whose values are words.
+
+// Turns each word into the number of its value, which CLI11 reads into an enum or a bool. Everything else, even a
+// number, is a usage error that lists the words.
+template <typename Value>
+CLI::Validator words(const std::map<std::string, Value> &values) {
+    const auto look_up = [values](std::string &text) -> std::string {
+        const auto found = values.find(text);
+        if (found == values.end()) {
+            std::vector<std::string> all;
+            for (const auto &[word, value] : values) all.push_back(word);
+            return fmt::format("must be one of {}, not '{}'", fmt::join(all, ", "), text);
+        }
+        text = fmt::to_string(static_cast<int>(found->second));
+        return {};
+    };
+    return CLI::Validator(look_up, "");
+}
 
 } // namespace sparselens

@@ -1,8 +1,7 @@
 #include "options/finish_options.h"
 
-#include "harness/examples.h"
-#include "harness/words.h"
-#include "options/parameter_options.h"
+#include "harness/tool.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "options/gather_options.h"
 
 #include "base/error.h"
-#include "harness/examples.h"
-#include "harness/one_line.h"
-#include "options/parameter_options.h"
+#include "harness/progress_lines.h"
+#include "harness/tool.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

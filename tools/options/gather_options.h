@@ -4,7 +4,6 @@
 #include "chain/take_picture.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <optional>

@@ -1,8 +1,6 @@
 #include "options/match_options.h"
 
-#include "harness/examples.h"
-#include "harness/words.h"
-#include "options/parameter_options.h"
+#include "harness/tool.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // The command line of dof-match, and its answers as JSON.
 #pragma once
 
-#include "chain/ldi_cache.h"
+#include "chain/gather_windows.h"
 #include "chain/match_lens.h"
 #include "harness/commands/cli.h"
 

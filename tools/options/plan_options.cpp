@@ -1,8 +1,8 @@
 #include "options/plan_options.h"
 
-#include "harness/examples.h"
-#include "options/camera_options.h"
-#include "options/parameter_options.h"
+#include "harness/tool.h"
+#include "options/picture_options.h"
+#include "options/warp_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "chain/plan_views.h"
 #include "chain/stated_camera.h"
 #include "harness/commands/cli.h"
-#include "options/parameter_options.h"
+#include "options/picture_options.h"
 
 #include <optional>
 #include <string>

@@ -1,10 +1,10 @@
-// The command line of ldi-warp.
+// The command line of ldi-warp; and the camera of a layer of USD, for ldi-plan as well.
 #pragma once
 
 #include "chain/make_ldi.h"
+#include "chain/stated_camera.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
-#include "options/parameter_options.h"
 #include "options/picture_options.h"
 
 #include <string>
@@ -27,5 +27,8 @@ struct WarpCommand : LdiFromViews {
 };
 
 void add_warp_options(CLI::App &app, WarpCommand &options);
+
+// --camera, --camera-name and --camera-frame. `camera` must not move until the command line is parsed.
+void add_camera_options(CLI::App &app, CameraRequest &camera);
 
 } // namespace sparselens

@@ -3,6 +3,8 @@
 // 180]}.
 #pragma once
 
+#include "options/gather_options.h"
+
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
@@ -10,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sparselens {
 
@@ -31,5 +34,36 @@ inline constexpr std::size_t most_asked = 16384; // bytes
 // Parses a request. Throws UsageError with the reason if the text is invalid. Values may hold only letters, digits and
 // "+-.,_", so a page cannot name a file.
 Asked parse_asked(std::string_view text);
+
+// The picture on a page, as the words of a dof-gather command line: the server's own words, and the page's settings. So
+// a page can set only what a command line can say, and every picture has a command.
+using Words = std::vector<std::string>;
+
+// Lenses that the page offers: names (petzval) and files of share/lenses, where the program was installed or built;
+// empty if there are none.
+using Presets = std::map<std::string, std::string>;
+Presets lens_presets();
+
+// The words of a dof-view command line that dof-gather also has: IN, and how the picture is made.
+Words picture_words(const Words &all);
+
+// The words with a page's settings (Asked::settings) applied; its lens is the name of a preset. Throws UsageError if a
+// page may not set an option.
+Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
+                 const Presets &presets = {});
+
+// The words without the option, and without options that say the same in another way.
+Words words_without(const Words &given, const std::string &option);
+
+// The command that the words describe, with a name of the output; OpenImageIO, which loads slowly, is needed for PNG.
+// Throws UsageError for an invalid command line.
+GatherCommand command_of(const Words &words, const std::string &output = "picture.png");
+
+// The words without those that do not apply to the output: an EXR file has no display.
+Words words_for(const Words &words, const std::string &output);
+
+// The command that makes the picture, for a shell, or as a script for Python.
+std::string shell_command(const Words &words, const std::string &output);
+std::string python_script(const Words &words, const std::string &input, const std::string &output);
 
 } // namespace sparselens

@@ -4,6 +4,11 @@
 // present, must equal it.
 #pragma once
 
+#include "base/error.h"
+#include "harness/progress_lines.h"
+
+#include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -22,5 +27,24 @@ bool is_loopback_host(std::string_view host);
 // Whether a request with these headers comes from the server's own page, or from no page. An empty origin means no
 // Origin header.
 bool is_own_origin(std::string_view origin, std::string_view host);
+
+// The answer to a request that failed, to the page or in a pipe.
+struct Refusal {
+    int status; // as in HTTP: 400 if the request is wrong, 500 if it could not be done
+    std::string why;
+};
+
+// Describes the exception that is being handled: call it in a catch block, for exceptions derived from std::exception.
+inline Refusal refusal_of_exception() {
+    try {
+        throw;
+    } catch (const UsageError &error) {
+        return {400, with_options(error.what())};
+    } catch (const std::bad_alloc &) {
+        return {500, "there is not enough memory for this"};
+    } catch (const std::exception &error) {
+        return {500, with_options(error.what())};
+    }
+}
 
 } // namespace sparselens

@@ -1,13 +1,13 @@
 #include "viewing/gatherer.h"
 
 #include "base/error.h"
-#include "chain/words.h"
+#include "chain/notices.h"
 #include "harness/history.h"
-#include "harness/one_line.h"
 #include "harness/process.h"
+#include "harness/progress_lines.h"
 #include "io/exr/exr_flat.h"
 #include "options/gather_options.h"
-#include "viewing/view_facts.h"
+#include "viewing/shot.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

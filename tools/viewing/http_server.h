@@ -1,12 +1,12 @@
 // Answers HTTP requests on a port of this machine. Only this class uses sockets.
 //
 // One thread reads the requests of all connections and writes their answers, so a slow connection delays nobody and
-// costs no more memory than one bounded request. Other threads (crew.h) work on complete requests that are admitted. If
+// costs no more memory than one bounded request. Other threads (studio.h) work on complete requests that are admitted. If
 // there are too many connections, the one that has been silent or incomplete for longest is closed.
 #pragma once
 
-#include "viewing/crew.h"
 #include "viewing/http_request.h"
+#include "viewing/studio.h"
 
 #include <poll.h>
 

@@ -7,7 +7,7 @@
 // may also be one of share/lenses.
 #pragma once
 
-#include "viewing/view_words.h"
+#include "viewing/asked.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,11 +1,11 @@
 #include "viewing/pipe.h"
 
 #include "base/error.h"
-#include "harness/one_line.h"
+#include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
+#include "viewing/door.h"
 #include "viewing/gatherer.h"
 #include "viewing/pipe_request.h"
-#include "viewing/refusal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

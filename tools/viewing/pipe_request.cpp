@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

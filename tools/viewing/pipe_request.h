@@ -8,7 +8,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "io/files/memory_file.h"
+#include "io/files/text_file.h"
 #include "viewing/picture_file.h"
 
 #include <Imath/ImathBox.h>

@@ -4,7 +4,6 @@
 #include "viewing/door.h"
 #include "viewing/http_server.h"
 #include "viewing/page_assets.h"
-#include "viewing/refusal.h"
 
 #include <fmt/format.h>
 

@@ -1,17 +1,25 @@
 #include "viewing/shot.h"
 
+#include "base/matte.h"
 #include "chain/channels.h"
+#include "chain/notices.h"
+#include "chain/parameters.h"
 #include "chain/take_moments.h"
-#include "chain/words.h"
-#include "harness/one_line.h"
 #include "harness/process.h"
+#include "harness/progress_lines.h"
 #include "io/moment_files.h"
+#include "lens/thin_lens.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace sparselens {
@@ -136,6 +144,161 @@ ShownPixels Shot::displayed(Image image, double exposure, const ShotFrame &frame
                 for (float &value : image.plane(k)) value *= gain;
     transform_colours(frame.to_display, image);
     return shown_pixels(frame.in.name, image);
+}
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr double sharp_px = 1; // as in --show focus
+constexpr std::size_t most_objects = 65535;
+
+// Calls visit(name) for the objects of a sample, for each matte by descending coverage.
+template <typename Visit>
+void for_each_object(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
+                     const ObjectNames &names, const Visit &visit) {
+    for (const Matte &matte : mattes)
+        for (const Matte::Rank &rank : matte.ranks) {
+            if (!(ldi.values[rank.coverage][sample] > 0)) continue;
+            const auto found = names.find(std::bit_cast<std::uint32_t>(ldi.values[rank.id][sample]));
+            if (found != names.end()) visit(found->second);
+        }
+}
+
+Json objects_of(const Ldi &ldi, std::uint64_t sample, const ObjectNames &names) {
+    Json objects = Json::array();
+    for_each_object(ldi, find_mattes(ldi.channels), sample, names,
+                    [&](const std::string &name) { objects.push_back(name); });
+    return objects;
+}
+
+// The first object's name; empty if there is none.
+std::string object_of(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
+                      const ObjectNames &names) {
+    std::string first;
+    for_each_object(ldi, mattes, sample, names, [&](const std::string &name) {
+        if (first.empty()) first = name;
+    });
+    return first;
+}
+
+// The shortest number that is this float, as people write it: 2.2, not 2.2000000476837158.
+Json short_number(float value) {
+    return std::isfinite(value) ? Json::parse(fmt::format("{}", value)) : Json("inf");
+}
+
+} // namespace
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
+
+Json lens_facts(const ShotPicture &picture) {
+    const ThinLens &lens = picture.lens;
+    const SharpRange sharp = sharp_range(lens, sharp_px);
+    const double largest = std::max(std::abs(circle_of_confusion(lens, picture.depths.nearest)),
+                                    std::abs(circle_of_confusion(lens, picture.depths.farthest)));
+    Json facts{{"focus", json_number(lens.focus)},
+               {"radius", lens.radius},
+               {"near", json_number(sharp.near)},
+               {"far", json_number(sharp.far)},
+               {"hyperfocal", json_number(sharp.hyperfocal)},
+               {"largest_coc", json_number(largest)},
+               {"warnings", picture.warnings}};
+    if (picture.camera.fstop) facts["fstop"] = json_number(*picture.camera.fstop);
+    if (picture.camera.metres_per_unit) facts["metres_per_unit"] = *picture.camera.metres_per_unit;
+    return facts;
+}
+
+Json look_controls(const Presets &lenses) {
+    Json all = Json::array();
+    for (const Parameter *row : picture_parameters()) {
+        const PageControl &control = row->control;
+        const bool of_file = row->form == ParameterForm::file;
+        if (*control.label == '\0' || (of_file && lenses.empty())) continue;
+        std::vector<std::string> words = row->words;
+        if (row->form == ParameterForm::flag) words.push_back("on");
+        for (const auto &lens : lenses)
+            if (of_file) words.push_back(lens.first);
+        const char *kind = row->form == ParameterForm::number ? "number"
+                           : row->form == ParameterForm::pair ? "pair"
+                                                              : "choice";
+        all.push_back({{"name", row->name},
+                       {"label", control.label},
+                       {"help", with_options(row->help)},
+                       {"keyable", row->keyable},
+                       {"control", kind},
+                       {"words", words},
+                       {"low", control.low},
+                       {"high", control.high},
+                       {"usual", control.usual},
+                       {"whole_from", control.whole_from}});
+    }
+    return all;
+}
+
+ObjectMap object_map(const ShotFrame &frame) {
+    struct Object {
+        std::size_t number;
+        DepthExtent depths;
+    };
+    std::map<std::string, Object> objects;
+    const std::vector<Matte> mattes = find_mattes(frame.in.ldi.channels);
+    const Windows &windows = frame.in.ldi.windows;
+    const Imath::Box2i box = reduced(windows.display, frame.across);
+    ObjectMap map;
+    const auto add = [&](const Ldi &ldi, const Imath::V2i &at) {
+        const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+        const std::string name = samples.empty() ? "" : object_of(ldi, mattes, samples.front(), frame.names);
+        if (name.empty() || (objects.size() == most_objects && !objects.contains(name)))
+            return std::size_t{0};
+        const double z = double(ldi.z[samples.front()]);
+        Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
+        object.depths = {std::min(object.depths.nearest, z), std::max(object.depths.farthest, z)};
+        return object.number;
+    };
+    for (int y = box.min.y; y <= box.max.y; ++y) {
+        std::optional<Ldi> row;
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const Imath::V2i at = middle_subpixel({x, y}, frame.across);
+            const bool there = windows.data.intersects(at);
+            if (there && !row) row = frame.row(at.y);
+            const std::size_t number = there ? add(*row, at) : 0;
+            map.numbers.push_back(std::uint8_t(number & 255));
+            map.numbers.push_back(std::uint8_t(number >> 8 & 255));
+        }
+    }
+    map.said["objects"] = Json::array();
+    for (std::size_t i = 0; i < objects.size(); ++i) map.said["objects"].push_back({});
+    for (const auto &[name, object] : objects) {
+        const FocusFor sharp = focus_for(object.depths.nearest, object.depths.farthest);
+        map.said["objects"][object.number - 1] = {{"name", name},
+                                                  {"focus", json_number(sharp.focus)},
+                                                  {"hyperfocal", json_number(sharp.hyperfocal)}};
+    }
+    return map;
+}
+
+Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
+    Json samples = Json::array();
+    if (!reduced(frame.in.ldi.windows.data, frame.across).intersects(pixel))
+        return samples; // however far away
+    const Imath::V2i at = middle_subpixel(pixel, frame.across);
+    if (!frame.in.ldi.windows.data.intersects(at)) return samples;
+    const Ldi ldi = frame.row(at.y);
+    const auto rgb = find_rgb(ldi.channels);
+    const std::size_t alpha = ldi.alpha();
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
+        const float z = ldi.z[i], seen_at = float(ldi.optical_z(i));
+        Json colour = Json::array();
+        for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));
+        Json sample{{"z", short_number(z)},
+                    {"alpha", alpha == npos ? 1.0 : double(ldi.values[alpha][i])},
+                    {"coc", json_number(circle_of_confusion(lens, double(seen_at)))},
+                    {"rgb", colour},
+                    {"objects", objects_of(ldi, i, frame.names)}};
+        if (seen_at != z) sample["image"] = short_number(seen_at); // depth of the image
+        samples.push_back(sample);
+    }
+    return samples;
 }
 
 } // namespace sparselens

@@ -6,8 +6,12 @@
 #include "harness/tool.h"
 #include "io/display/shown_picture.h"
 #include "options/gather_options.h"
+#include "viewing/asked.h"
 #include "viewing/reel.h"
 
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
@@ -63,5 +67,30 @@ private:
     LooksReader looks_;
     std::deque<ReadHoldout> holdouts_; // the last few
 };
+
+// Facts that a page shows beside the picture: about the lens, and the samples of a pixel. As JSON, with infinity as
+// "inf".
+
+// Focus, f-number, sharp range (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
+nlohmann::json lens_facts(const ShotPicture &picture);
+
+// The controls of the looks of the lens, from the table of parameters: a choice of words, a number or a pair; which of
+// them can be keyed by frame.
+nlohmann::json look_controls(const Presets &lenses);
+
+// The samples of a pixel of the picture (of its middle sub-pixel), front to back: depth, CoC, alpha, colour, objects.
+nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);
+
+// The frontmost objects in the pixels of the picture. `said`: for each object its name, and focus and hyperfocal
+// distance of the widest lens for which all of it is sharp. `numbers`: two bytes for each pixel, the lower first: the
+// object's number, from 1 to 65535; 0: no object, or one beyond 65535.
+struct ObjectMap {
+    nlohmann::json said;
+    std::vector<std::uint8_t> numbers;
+};
+ObjectMap object_map(const ShotFrame &frame);
+
+// A number that JSON can hold, else "inf".
+nlohmann::json json_number(double value);
 
 } // namespace sparselens

@@ -5,7 +5,7 @@
 #include "chain/match_lens.h"
 #include "io/moment_files.h"
 #include "options/match_options.h"
-#include "viewing/shot_frame.h"
+#include "viewing/reel.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -8,8 +8,6 @@
 #include "viewing/asked.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
-#include "viewing/view_facts.h"
-#include "viewing/view_words.h"
 
 #include <Imath/ImathVec.h>
 

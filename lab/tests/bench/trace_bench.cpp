@@ -1,5 +1,5 @@
 // Times the tracer in packets beside its slow reference, and a camera ray with all its shading.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "lab/tests/trace/brute_force.h"
 #include "lab/tests/trace/small_scenes.h"
 

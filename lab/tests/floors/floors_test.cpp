@@ -1,6 +1,6 @@
 // Tests that the whole chain from views to the picture is as good as floors.h says.
 #include "base/subpixels.h"
-#include "deep/edge_depths.h"
+#include "deep/mixed_pixels.h"
 #include "deep/tidy.h"
 #include "deep/view_samples.h"
 #include "dof/gather_picture.h"

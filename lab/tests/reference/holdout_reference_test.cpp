@@ -1,5 +1,5 @@
 // A picture with a holdout: the fast gather compared with the slow one.
-#include "deep/holdout.h"
+#include "deep/merge.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/tests/support/reference_picture.h"
 #include "lens/lens_samples.h"

@@ -1,6 +1,6 @@
 // Lamps over nothing whose edge pixels have the depth of the sky.
-#include "base/random.h"
-#include "deep/edge_depths.h"
+#include "base/numbers.h"
+#include "deep/mixed_pixels.h"
 #include "lab/methods/scatter.h"
 #include "lens/lens_points.h"
 #include "support/views.h"

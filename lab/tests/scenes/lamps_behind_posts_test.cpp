@@ -2,8 +2,8 @@
 // it.
 #include "dof/gather_picture.h"
 #include "lab/tests/support/traced.h"
-#include "lens/f_number.h"
 #include "lens/lens_points.h"
+#include "lens/thin_lens.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/numbers.h"
 #include "lab/tests/trace/brute_force.h"
 #include "lab/tests/trace/small_scenes.h"
 #include "lab/trace/tracer.h"

@@ -1,6 +1,5 @@
-#include "base/median.h"
+#include "base/numbers.h"
 #include "deep/checks/picture_checks.h"
-#include "deep/checks/picture_lines.h"
 #include "view/flat_pixels.h"
 
 #include <algorithm>

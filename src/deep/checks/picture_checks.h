@@ -1,13 +1,13 @@
-// Checks that find pictures that are read wrongly, views that were rendered through a lens, and mixed-up units. Each
-// check has a .cpp file of its own.
+// Checks that find pictures that are read wrongly, views that were rendered through a lens, and mixed-up units.
 #pragma once
 
 #include "base/grid.h"
-#include "deep/packed_view.h"
+#include "deep/view_samples.h"
 #include "lens/thin_lens.h"
 #include "view/flat_pixels.h"
 #include "view/view.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -116,5 +116,21 @@ bool blurs_nothing(double largest_coc, const ThinLens &lens);
 // The views that stand farther than three lens radii from the centre. Such a lens sees nothing from there, and mixed-up
 // units differ by ten and more.
 std::vector<std::size_t> views_beyond_lens(std::span<const PackedView> views, double lens_radius);
+
+// Rows and columns of a picture, spread evenly over it, enough of them to judge the whole picture.
+
+// Pixels of a row or column, from the index of the first, `step` apart.
+struct PictureLine {
+    std::size_t first, step, length;
+    std::size_t operator[](std::size_t i) const { return first + i * step; }
+};
+
+template <typename Visit> // visit(PictureLine)
+void visit_lines(const Grid &grid, const Visit &visit) {
+    constexpr std::size_t most = 512; // of each
+    const auto width = std::size_t(grid.width()), height = std::size_t(grid.height());
+    for (std::size_t y = 0; y < height; y += pieces_of(height, most)) visit(PictureLine{y * width, 1, width});
+    for (std::size_t x = 0; x < width; x += pieces_of(width, most)) visit(PictureLine{x, width, height});
+}
 
 } // namespace sparselens

@@ -1,6 +1,8 @@
 #include "deep/checks/pose_check.h"
 
-#include "deep/checks/pose_evidence.h"
+#include "deep/view_samples.h"
+#include "view/flat_pixels.h"
+#include "view/view_mapping.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +11,67 @@
 #include <vector>
 
 namespace sparselens {
+
+// What the pixels of a view tell about where it stood. In the centre view, each of them must land on the same surface,
+// and so the same colour, or on a nearer surface that hides it from the centre. It never lies in front of what the
+// centre view shows.
+
+// A view with its channels found.
+struct PosedPicture {
+    explicit PosedPicture(const PackedView &picture)
+        : view(picture), samples(picture.samples), rgb(find_rgb(samples.channels)) {}
+
+    std::size_t index(const Imath::V2i &p) const { return samples.windows.index(p.x, p.y); }
+    bool shows_something(const Imath::V2i &p) const { return samples.is_single(index(p)); } // a single sample
+    double depth(const Imath::V2i &p) const { return samples.z(index(p)); }
+    Imath::V3d colour(const Imath::V2i &p) const {
+        const auto value = [&](std::size_t k) { return k == npos ? 0 : double(samples.value(k, index(p))); };
+        return {value(rgb[0]), value(rgb[1]), value(rgb[2])};
+    }
+
+    const PackedView &view;
+    const ViewSamples &samples;
+    std::array<std::size_t, 3> rgb;
+};
+
+struct PoseVerdict {
+    double contradiction = 0;  // [0, 1], the mean over the pixels that tell
+    std::size_t told = 0;      // the number of these pixels: the centre view sees what they show
+    std::size_t off_depth = 0; // the number whose depth contradicts; mirrors and glass mislead colours alone
+};
+
+class PoseEvidence {
+public:
+    // Chooses at most some ten thousand pixels of the view, whose colour or depth differs from that of neighbouring
+    // pixels, because a surface without texture looks the same from everywhere. Both views must outlive the evidence.
+    // `focal_px` is the focal length in pixels.
+    PoseEvidence(const PackedView &centre, const PackedView &view, double focal_px);
+
+    // The verdict if the view stands at `position`, and its optical axis meets the picture farther right and down by
+    // `axis` display widths than its framing says. A pixel in front of what the centre view shows contradicts by 1; a
+    // pixel on the same surface contradicts by the relative difference between its colour and the colours of this
+    // surface around it. Its depth contradicts if it is in front, or nearer or farther than that surface is there. One
+    // pixel in `every` is tested.
+    PoseVerdict at(const Imath::V2d &position, const Imath::V2d &axis = {0, 0}, std::size_t every = 1) const;
+
+    // How many pixels the nearest chosen pixel moves per scene unit of the view's motion; 0 if there are none.
+    double motion() const;
+    std::size_t size() const { return pixels_.size(); }
+
+private:
+    struct Pixel {
+        Imath::V2d place; // of the pixel's middle
+        double z;
+        Imath::V3d colour;
+    };
+
+    // Adds a pixel that lands at `landed` to the verdict, unless it may be hidden from the centre.
+    void ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const;
+
+    PosedPicture centre_, view_;
+    double focal_px_;
+    std::vector<Pixel> pixels_;
+};
 
 namespace {
 
@@ -217,6 +280,97 @@ std::optional<std::size_t> view_in_the_middle(std::span<const PackedView> views)
     const double farthest = off(*std::ranges::max_element(views, {}, off));
     if (off(*nearest) > 0.25 * farthest) return {};
     return std::size_t(nearest - views.begin());
+}
+
+namespace {
+
+constexpr double samples_a_side = 128; // of the view's pixels, enough to tell
+constexpr int beside = 2;              // pixels
+constexpr double contrast = 0.1;       // relative difference of colour
+constexpr double jump = 1.05;          // ratio of depths
+constexpr double same_depth = 1.04;    // ratio; nearer samples are in front
+constexpr double rounding = 1e-3;      // of depths, relative: the precision of half
+
+bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
+    return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
+}
+
+// Whether the pixel differs from the pixel to the right or the pixel below.
+bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
+    for (const Imath::V2i &q : {p + Imath::V2i(beside, 0), p + Imath::V2i(0, beside)}) {
+        if (!picture.samples.windows.data.intersects(q) || !picture.shows_something(q)) continue;
+        const double z = picture.depth(p), other = picture.depth(q);
+        if (z > jump * other || other > jump * z) return true;
+        if (relative_difference(picture.colour(p), picture.colour(q)) > contrast) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+PoseEvidence::PoseEvidence(const PackedView &centre, const PackedView &view, double focal_px)
+    : centre_(centre), view_(view), focal_px_(focal_px) {
+    const Windows &w = view.samples.windows;
+    const Imath::V2i step(int(std::ceil(w.width() / samples_a_side)),
+                          int(std::ceil(w.height() / samples_a_side)));
+    for (int y = w.data.min.y; y <= w.data.max.y; y += step.y)
+        for (int x = w.data.min.x; x <= w.data.max.x; x += step.x) {
+            const Imath::V2i p(x, y);
+            if (view_.shows_something(p) && stands_out(view_, p))
+                pixels_.push_back({Imath::V2d(p) + Imath::V2d(0.5), view_.depth(p), view_.colour(p)});
+        }
+}
+
+PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis, std::size_t every) const {
+    Framing framing = view_.view.framing;
+    framing.principal_point += axis;
+    const ViewMapping mapping(position, focal_px_, view_.samples.windows, framing,
+                              centre_.view.framing.principal_point);
+    PoseVerdict verdict;
+    for (std::size_t i = 0; i < pixels_.size(); i += every) {
+        const Pixel &pixel = pixels_[i];
+        const Imath::V2d landed =
+            mapping.at_infinity(pixel.place) + mapping.parallax(pixel.place) * (1 / pixel.z);
+        if (!holds(centre_.samples.windows.data, landed)) continue;
+        ask(landed, pixel, verdict);
+    }
+    if (verdict.told > 0) verdict.contradiction /= double(verdict.told);
+    return verdict;
+}
+
+// The landing point is known to a pixel: any of the four pixels around it may show the same surface, or one that hides
+// it.
+void PoseEvidence::ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const {
+    Imath::V3d least(0), most(0);
+    double nearest = pixel.z, farthest = pixel.z;
+    bool seen = false, hidden = false;
+    for (const double dx : {-0.5, 0.5})
+        for (const double dy : {-0.5, 0.5}) {
+            const Imath::V2i p(int(std::floor(landed.x + dx)), int(std::floor(landed.y + dy)));
+            if (!centre_.samples.windows.data.intersects(p) || !centre_.shows_something(p)) continue;
+            const double z = centre_.depth(p);
+            hidden = hidden || pixel.z > same_depth * z;
+            if (pixel.z > same_depth * z || z > same_depth * pixel.z) continue;
+            const Imath::V3d there = centre_.colour(p);
+            for (int k = 0; k < 3; ++k) {
+                least[k] = seen ? std::min(least[k], there[k]) : there[k];
+                most[k] = seen ? std::max(most[k], there[k]) : there[k];
+            }
+            nearest = seen ? std::min(nearest, z) : z;
+            farthest = seen ? std::max(farthest, z) : z;
+            seen = true;
+        }
+    if (!seen && hidden) return;
+    ++verdict.told;
+    verdict.off_depth += !seen || pixel.z < nearest * (1 - rounding) || pixel.z > farthest * (1 + rounding);
+    Imath::V3d closest;
+    for (int k = 0; k < 3; ++k) closest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
+    verdict.contradiction += seen ? relative_difference(closest, pixel.colour) : 1;
+}
+
+double PoseEvidence::motion() const {
+    const auto nearest = std::ranges::min_element(pixels_, {}, &Pixel::z);
+    return nearest == pixels_.end() ? 0 : focal_px_ / nearest->z;
 }
 
 } // namespace sparselens

@@ -1,8 +1,8 @@
 // Checks whether views stand where they are said to stand. A wrong position makes an LDI with ghosts, in which each
-// single sample looks valid. Only a clear finding over many pixels counts; pose_evidence.h explains what they show.
+// single sample looks valid. Only a clear finding over many pixels counts; pose_check.cpp explains what they show.
 #pragma once
 
-#include "deep/packed_view.h"
+#include "deep/view_samples.h"
 
 #include <cstddef>
 #include <optional>

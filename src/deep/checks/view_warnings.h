@@ -2,7 +2,6 @@
 // stand beside this file. A warning needs clear evidence in many pixels, because a false warning is worse than none.
 #pragma once
 
-#include "../../view/camera.h"
 #include "../../view/depth.h"
 #include "../../view/view.h"
 
@@ -12,12 +11,12 @@
 
 namespace sparselens {
 
-struct PackedView; // deep/packed_view.h
+struct PackedView; // deep/view_samples.h
 
 // What the caller knows about the views besides their pixels.
 struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // how they were read
-    bool depth_filtered = false;               // in the first view; see edge_depths.h
+    bool depth_filtered = false;               // in the first view; see mixed_pixels.h
     Camera camera = {};                        // of the first view
     bool unpremultiplied = false;              // in the first view; see picture_checks.h
 };

@@ -3,8 +3,8 @@
 // splats. Each gather does itself the tiles that the device leaves.
 #pragma once
 
-#include "base/device_report.h"
-#include "kernels/lens_layout.h"
+#include "base/progress.h"
+#include "kernels/lens_rules.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathBox.h>

@@ -1,10 +1,12 @@
 #include "dof/facets/facets.h"
 
 #include "base/parallel.h"
-#include "dof/facets/links.h"
+#include "base/subpixels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace sparselens {
 
@@ -96,6 +98,115 @@ FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest) {
     for (auto &row : rows)
         for (auto &block : row) found.blocks.push_back(std::move(block));
     return found;
+}
+
+LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
+    LinkedSample found;
+    for_each_opaque(pixel, [&](const LinkedSample &s) {
+        if (!found.found() || std::abs(s.depth - depth) < std::abs(found.depth - depth)) found = s;
+    });
+    return found;
+}
+
+// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
+// 0.
+Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
+                                 float expected) const {
+    Steps steps{0, 0};
+    LinkedSample last = from;
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        const LinkedSample next = nearest(pixel + int(n + 1) * step, last.depth + expected);
+        if (!next.found() || (next.depth - last.depth) * expected <= 0) break;
+        expected = next.depth - last.depth;
+        steps[n] = std::abs(expected);
+        last = next;
+    }
+    return steps;
+}
+
+LinkedSample Links::linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const {
+    if (!a.found()) return a;
+    const LinkedSample b = nearest(pixel + step, a.depth);
+    if (!b.found()) return b;
+    if (kernels::is_one_surface(a.depth, b.depth, steep_px)) return b;
+    const float difference = b.depth - a.depth;
+    const Steps on = steps_beyond(b, pixel + step, step, difference);
+    const Steps back = steps_beyond(a, pixel, Imath::V2i(0) - step, 0 - difference);
+    const float slope =
+        std::max({std::min(on[0], on[1]), std::min(back[0], back[1]), std::min(on[0], back[0])});
+    return std::abs(difference) - steep_px < 2 * slope ? b : LinkedSample{};
+}
+
+namespace {
+
+class Joining {
+public:
+    Joining(const Ldi &ldi, const Links &links, float apart)
+        : ldi_(ldi), corner_(ldi.windows.data.min), links_(links), apart_(apart), first_(ldi.samples()) {
+        std::iota(first_.begin(), first_.end(), 0u);
+    }
+
+    // `cell`: its pixels, EXR coordinates.
+    void join(const Imath::Box2i &cell) {
+        float least = INFINITY, most = -INFINITY;
+        for_each(cell, [&](const Imath::V2i &, const LinkedSample &s) {
+            least = std::min(least, s.depth);
+            most = std::max(most, s.depth);
+        });
+        if (!(most - least > apart_)) return;
+        for_each(cell, [&](const Imath::V2i &at, const LinkedSample &s) {
+            for (const Imath::V2i &step : {Imath::V2i(1, 0), Imath::V2i(0, 1)})
+                if (cell.intersects(at + step + corner_))
+                    if (const LinkedSample next = links_.linked(s, at, step); next.found())
+                        unite(s.sample, next.sample);
+        });
+        for_each(cell,
+                 [&](const Imath::V2i &, const LinkedSample &s) { first_[s.sample] = first_of(s.sample); });
+    }
+
+    std::vector<std::uint32_t> take() { return std::move(first_); }
+
+private:
+    // Calls visit(pixel, sample). The pixel is relative to the data window's corner.
+    template <typename Visit>
+    void for_each(const Imath::Box2i &cell, const Visit &visit) const {
+        for (int y = cell.min.y; y <= cell.max.y; ++y)
+            for (int x = cell.min.x; x <= cell.max.x; ++x) {
+                const Imath::V2i at = Imath::V2i(x, y) - corner_;
+                links_.for_each_opaque(at, [&](const LinkedSample &s) { visit(at, s); });
+            }
+    }
+    std::uint32_t first_of(std::uint32_t sample) const {
+        while (first_[sample] != sample) sample = first_[sample];
+        return sample;
+    }
+    bool shows_image(std::uint32_t sample) const {
+        return !ldi_.optical.empty() && ldi_.optical[sample] != ldi_.z[sample];
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        if (shows_image(a) || shows_image(b)) return;
+        const auto [least, most] = std::minmax({first_of(a), first_of(b)});
+        first_[most] = least;
+    }
+
+    const Ldi &ldi_;
+    Imath::V2i corner_;
+    const Links &links_;
+    float apart_;
+    std::vector<std::uint32_t> first_;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> joined_in_cells(const Ldi &ldi, const Links &links, int across, float apart) {
+    Joining joining(ldi, links, apart);
+    const Imath::Box2i cells = reduced(ldi.windows.data, across);
+    parallel_for(std::size_t(cells.max.y - cells.min.y + 1), [&](std::size_t row) {
+        const int y = (cells.min.y + int(row)) * across;
+        for (int x = cells.min.x * across; x <= cells.max.x * across; x += across)
+            joining.join({{x, y}, {x + across - 1, y + across - 1}});
+    });
+    return joining.take();
 }
 
 } // namespace sparselens

@@ -1,6 +1,5 @@
 #include "dof/facets/placed_facets.h"
 
-#include "base/for_processors.h"
 #include "base/parallel.h"
 #include "kernels/lens_rules.h"
 

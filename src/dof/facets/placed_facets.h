@@ -1,7 +1,7 @@
 // Draws facets, as a lens point sees them, into a grid of cells. Each cell keeps the greatest key.
 #pragma once
 
-#include "base/large_array.h"
+#include "base/image.h"
 #include "dof/facets/facets.h"
 #include "lens/lens_samples.h"
 

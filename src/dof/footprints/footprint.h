@@ -9,7 +9,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "dof/facets/links.h"
+#include "dof/facets/facets.h"
 #include "kernels/lens_rules.h"
 
 #include <Imath/ImathBox.h>
@@ -49,5 +49,23 @@ std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &sam
 
 // Returns by how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a box of pixels.
 float coc_to_edges(const Links *links, const Imath::Box2i &pixels);
+
+// Joins the footprints of opaque samples of one surface that lie side by side into one rectangle. For a lamp far behind
+// them the rectangle makes no difference, and it is tested once instead of once for each sample.
+//
+// Footprints are joined where they touch and their other edges go on straight: first along a row of pixels, then row by
+// row. A joined footprint covers all that its parts cover. Its edges, and the CoCs of its edges, differ from the parts'
+// by at most a small part of a pixel.
+struct JoinedFootprint {
+    Footprint footprint;
+    float depth;          // perceptive depth of the farthest sample, pixels
+    float nearest;        // the same of the nearest sample
+    std::uint32_t sample; // the first of the joined samples
+};
+
+// Joins the samples of a run, row by row. `footprints`: the footprints of these samples. Samples from `opaque_end` on
+// have partial coverage and stay alone.
+std::vector<JoinedFootprint> joined(const SamplesInPicture &samples, const SampleRun &run,
+                                    std::uint32_t opaque_end, std::span<const Footprint> footprints);
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
 #include "dof/lens/cells.h"
 
-#include "base/float4.h"
-#include "dof/lens/lens_tiles.h"
+#include "base/numbers.h"
+#include "dof/lens/lens_gather.h"
 #include "dof/tuning.h"
 
 #include <algorithm>

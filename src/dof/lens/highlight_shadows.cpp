@@ -1,8 +1,8 @@
 #include "dof/lens/highlight_shadows.h"
 
-#include "base/float4.h"
-#include "dof/lens/lens_tiles.h"
-#include "dof/lens/shadow_edges.h"
+#include "base/numbers.h"
+#include "dof/lens/lens_gather.h"
+#include "dof/lens/shadow_search.h"
 #include "dof/tuning.h"
 
 #include <algorithm>

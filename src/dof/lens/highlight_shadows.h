@@ -3,25 +3,24 @@
 // Whether a position in a disc sees the lamp does not depend on the lens points of the gather: position and lamp
 // determine the point of the lens, and so what hides the lamp there (lens/lamp_shadow.h). A sample hides everything
 // farther. Samples of one surface do not shadow each other, because their footprints share edges
-// (dof/footprints/footprint.h). Opaque samples side by side cast one shadow (dof/footprints/joined_footprints.h).
+// (dof/footprints/footprint.h). Opaque samples side by side cast one shadow (dof/footprints/footprint.h).
 // Highlights of partial coverage in other pixels that are at most a tenth nearer do not hide each other: they are lamps
 // smaller than a pixel, side by side.
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
 // costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart, with m as in
-// lamp_shadow.h. If that is at most a fiftieth of the disc's radius, the members of a group (highlight_groups.h) use
+// lamp_shadow.h. If that is at most a fiftieth of the disc's radius, the members of a group (highlights.h) use
 // the shadow on the member in their middle. The shadows of casters that are closer to the lamp in depth are cast for
 // each member.
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide.
 //
-// In a picture of one view, fillers take the place of solids (filler_samples.h).
+// In a picture of one view, fillers take the place of solids (fillers.h).
 #pragma once
 
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/shadow_lists.h"
 #include "dof/lens/shadow_search.h"
 #include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
@@ -39,7 +38,7 @@ namespace sparselens {
 
 class HighlightShadows {
 public:
-    // `samples`: those that Highlights::sample refers to. `solids` (solid_samples.h) cast shadows as well.
+    // `samples`: those that Highlights::sample refers to. `solids` (sample_blocks.h) cast shadows as well.
     HighlightShadows(const Highlights &highlights, const ShadowCasters &samples, const ShadowCasters &solids)
         : highlights_(highlights), samples_(samples.samples), search_(samples, solids) {}
 

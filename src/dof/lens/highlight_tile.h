@@ -1,15 +1,15 @@
 // The light of highlights (highlights.h) in one tile: the exact disc of each lamp, less what is hidden by things in
 // front of the lamp (highlight_shadows.h).
 //
-// A disc of a few pixels is shadowed in cells of the lens (lens/lamp_cells.h), a larger one in pixels. If the CoC of a
+// A disc of a few pixels is shadowed in cells of the lens (lens/lamp_shadow.h), a larger one in pixels. If the CoC of a
 // sample is two pixels or more, its light comes from its position. Near the focus its light comes from the square of a
 // pixel, as lens points see it, so that what is in focus stays as it was rendered. In between, the square shrinks.
 #pragma once
 
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/highlight_shadows.h"
-#include "dof/lens/lens_tiles.h"
-#include "lens/lamp_cells.h"
+#include "dof/lens/lens_gather.h"
+#include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
 
 #include <Imath/ImathVec.h>

@@ -2,12 +2,12 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
-#include "dof/lens/bright_share.h"
 #include "dof/tuning.h"
-#include "lens/lamp.h"
+#include "lens/lamp_spread.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace sparselens {
 
@@ -219,6 +219,129 @@ void spread_along(const LampPaths &paths, const BlockedSamples &samples, const I
     }
     spread.groups = HighlightGroups(spread.among(samples));
     highlights = std::move(spread);
+}
+
+namespace {
+
+constexpr float group_of_coc = GatherTuning::lamp_group_of_coc;
+
+// The size of a group, pixels: a power of two, so that groups do not change with every change of the focus; a block at
+// most.
+int group_size(float coc) {
+    int size = 1;
+    while (size < BlockedSamples::size && float(2 * size) <= group_of_coc * std::abs(coc)) size *= 2;
+    return size;
+}
+
+// The values that the members of one group have in common.
+auto key_of(const PlacedHighlights &highlights, std::uint32_t h) {
+    const std::uint32_t i = highlights.sample[h];
+    const int size = group_size(highlights.samples.coc[i]);
+    const auto step_of = [](float v, double step) { return std::int64_t(std::floor(double(v) / step)); };
+    const Imath::V2f at = highlights.place(h);
+    return std::tuple(size, step_of(at.x, size), step_of(at.y, size),
+                      step_of(highlights.samples.depth(i), one_surface_px), size > 1 ? 0 : h);
+}
+
+} // namespace
+
+HighlightGroups::HighlightGroups(const PlacedHighlights &highlights) {
+    const auto key = [&](std::uint32_t h) { return key_of(highlights, h); };
+    // Makes groups of the members from `first` on.
+    const auto group = [&](std::size_t first) {
+        std::stable_sort(members_.begin() + std::ptrdiff_t(first), members_.end(),
+                         [&](auto a, auto b) { return key(a) < key(b); });
+        for (std::size_t n = first; n < members_.size(); ++n)
+            if (n == first || key(members_[n - 1]) != key(members_[n])) begin_.push_back(std::uint32_t(n));
+    };
+    std::vector<std::uint32_t> on_the_move;
+    std::uint32_t h = 0;
+    for (const SampleBlock &block : highlights.samples.blocks) {
+        of_block_.push_back(std::uint32_t(begin_.size()));
+        const std::size_t first = members_.size();
+        for (; h < highlights.sample.size() && highlights.sample[h] < block.end; ++h)
+            (highlights.is_moved(h) ? on_the_move : members_).push_back(h);
+        group(first);
+    }
+    of_block_.push_back(std::uint32_t(begin_.size()));
+    const std::size_t first_moved = members_.size();
+    members_.insert(members_.end(), on_the_move.begin(), on_the_move.end());
+    group(first_moved);
+    begin_.push_back(std::uint32_t(members_.size()));
+    moved_.resize(begin_.size() - 1 - of_block_.back());
+    for (std::size_t n = 0; n < moved_.size(); ++n)
+        for (const std::uint32_t member : members(of_block_.back() + n)) {
+            moved_[n].box.extendBy(highlights.place(member));
+            moved_[n].coc =
+                std::max(moved_[n].coc, std::abs(highlights.samples.coc[highlights.sample[member]]));
+        }
+}
+
+namespace {
+
+constexpr double cell_px = BrightShare::cell * BlockedSamples::size;
+constexpr double reach = cell_px; // as far as bands of rows let highlights look (gather_rows.cpp)
+constexpr double half = GatherTuning::lamp_octave;
+
+} // namespace
+
+int BrightShare::octave_of(float brightness) {
+    return brightness > 0 ? std::clamp(std::ilogb(brightness) + octaves / 2, 0, octaves - 1) : 0;
+}
+
+BrightShare::BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t)> &brightness)
+    : samples_(samples), corners_(pieces_of(samples.columns, cell) + 1, pieces_of(samples.rows, cell) + 1),
+      below_(octaves * corners_.size()) {
+    const auto at = [&](int octave, int x, int y) -> double & {
+        return below_[std::size_t(octave) * corners_.size() + corners_.index(x, y)];
+    };
+    parallel_for(std::size_t(corners_.height() - 1), [&](std::size_t row) {
+        const std::size_t columns = std::size_t(samples.columns), first = row * cell * columns,
+                          last = std::min(first + cell * columns, samples.blocks.size());
+        for (std::size_t b = first; b < last; ++b)
+            for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i)
+                at(octave_of(brightness(i)), int(b % columns) / cell + 1, int(row) + 1) +=
+                    double(counts_as(samples, i));
+    });
+    for (int octave = octaves - 2; octave >= 0; --octave)
+        for (std::size_t i = 0; i < corners_.size(); ++i)
+            below_[std::size_t(octave) * corners_.size() + i] +=
+                below_[std::size_t(octave + 1) * corners_.size() + i];
+    for (int octave = 0; octave < octaves; ++octave)
+        for (int y = 1; y < corners_.height(); ++y)
+            for (int x = 1; x < corners_.width(); ++x)
+                at(octave, x, y) += at(octave, x - 1, y) + at(octave, x, y - 1) - at(octave, x - 1, y - 1);
+}
+
+// Counts the samples in a box of cells: {left, top, right, bottom}. A part of a cell counts as that part of its
+// samples.
+double BrightShare::count(int octave, const std::array<double, 4> &box) const {
+    const auto before = [&](double x, double y) {
+        const int column = std::min(int(x), corners_.width() - 2),
+                  row = std::min(int(y), corners_.height() - 2);
+        const double right = x - column, down = y - row;
+        const auto at = [&](int i, int j) {
+            return below_[std::size_t(octave) * corners_.size() + corners_.index(column + i, row + j)];
+        };
+        return (1 - down) * ((1 - right) * at(0, 0) + right * at(1, 0)) +
+               down * ((1 - right) * at(0, 1) + right * at(1, 1));
+    };
+    return before(box[2], box[3]) - before(box[0], box[3]) - before(box[2], box[1]) + before(box[0], box[1]);
+}
+
+double BrightShare::around(std::uint32_t sample, float brightness) const {
+    const auto in_cells = [&](double v, int corners) {
+        return std::clamp(v / cell_px, 0.0, double(corners - 1));
+    };
+    const double x = double(samples_.x[sample]), y = double(samples_.y[sample]);
+    const std::array box{in_cells(x - reach, corners_.width()), in_cells(y - reach, corners_.height()),
+                         in_cells(x + reach, corners_.width()), in_cells(y + reach, corners_.height())};
+    const double all = count(0, box);
+    if (!(all > 0)) return 0;
+    const double octave =
+        std::clamp(std::log2(double(std::max(brightness, 1e-30f))) - half + octaves / 2, 0.0, octaves - 1.0);
+    const int whole = int(octave), next = std::min(whole + 1, octaves - 1);
+    return std::clamp(std::lerp(count(whole, box), count(next, box), octave - whole) / all, 0.0, 1.0);
 }
 
 } // namespace sparselens

@@ -7,20 +7,36 @@
 
 #include "../../base/image.h"
 #include "../../base/progress.h"
-#include "../../deep/holdout.h"
 #include "../../deep/ldi.h"
+#include "../../deep/merge.h"
 #include "../../lens/lens_looks.h"
+#include "../../lens/lens_points.h"
 #include "../../lens/thin_lens.h"
 #include "../../shutter/lamp_paths.h"
-#include "../../shutter/lens_share.h"
-#include "lens_tiles.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace sparselens {
+
+// How many lens points the lens gather chose for each tile of its window.
+inline constexpr int lens_tile_size = 64; // pixels wide and high: what a lens point sees stays in the cache
+
+struct LensTiles {
+    int size = lens_tile_size;    // pixels wide and high; less at the right and lower edge
+    int columns = 0, rows = 0;    // from the window's upper left corner
+    std::vector<int> lens_points; // [row][column]; 0: nothing is out of focus, the flattened LDI is copied
+};
+
+// The number of tiles for each number of lens points.
+inline std::map<int, int> histogram(const LensTiles &tiles) {
+    std::map<int, int> result;
+    for (const int points : tiles.lens_points) ++result[points];
+    return result;
+}
 
 class TileDevice;   // dof/device/tile_device.h
 struct GatherScene; // dof/lens/gather_scene.h
@@ -54,7 +70,7 @@ struct LensGatherOptions {
     std::optional<Imath::Box2i> known = {};
     std::span<const char> unseen = {};
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
-    bool one_view = false;   // the LDI is the picture of one view: fillers hide lamps (filler_samples.h)
+    bool one_view = false;   // the LDI is the picture of one view: fillers hide lamps (fillers.h)
     bool keeps_sums = false; // sums of channels: in tiles gathered in cells, each may leave its range
     const Holdout *holdout = nullptr; // hides the picture behind it
     const TileWatch *watch = nullptr; // if given

@@ -2,21 +2,42 @@
 // bounds tell at once which lens points bring none of their samples into a tile.
 #pragma once
 
-#include "base/coverage.h"
-#include "base/large_array.h"
+#include "base/channel_kind.h"
+#include "base/image.h"
+#include "base/light.h"
+#include "base/parallel.h"
 #include "deep/ldi.h"
-#include "dof/facets/known_pixels.h"
 #include "kernels/lens_rules.h"
 #include "lens/thin_lens.h"
 
+#include <Imath/ImathBox.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sparselens {
+
+// The known pixels of an LDI: they are transparent to infinity where nothing covers them. In other pixels it is unknown
+// what lies behind the samples.
+struct KnownPixels {
+    // The pixels of `window` (EXR coordinates) are known, except those marked in `unseen`, [pixel of the data window].
+    // An empty `unseen` marks none.
+    Imath::Box2i window;
+    std::span<const char> unseen = {};
+
+    KnownPixels(const Imath::Box2i &window_, std::span<const char> unseen_ = {})
+        : window(window_), unseen(unseen_) {}
+    bool has(const Windows &windows, std::size_t pixel) const {
+        return window.intersects(windows.pixel(pixel)) && (unseen.empty() || !unseen[pixel]);
+    }
+};
 
 struct SampleBlock {
     std::uint32_t begin, opaque_end, end; // opaque samples, then those of partial coverage
@@ -43,7 +64,7 @@ struct BlockedSamples {
     LargeArray<float> surface_coc;
     LargeArray<float> alpha;         // coverage, (0, 1]
     LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    // For solids (solid_samples.h): what the lower half of the key names. Empty: the sample itself.
+    // For solids: what the lower half of the key names. Empty: the sample itself.
     LargeArray<std::uint32_t> named;
     LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
@@ -109,5 +130,89 @@ using CountSamples = std::function<SampleCounts(int x, int y)>;
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
                            bool images = false);
+
+// Colours of the samples of a BlockedSamples, in groups of four channels so that one load brings one group:
+// [group][sample][4], premultiplied; channel k of the LDI is entry k % 4 of group k / 4.
+
+// The kind of a channel, for a lens that treats colours differently; one bit each, so that kinds form sets.
+enum ColourSet : std::uint8_t {
+    red = kernels::is_red,
+    green = kernels::is_green,
+    blue = kernels::is_blue,
+    coverage = kernels::is_coverage,
+    data = kernels::is_data,
+    all_colours = 31
+};
+inline bool is_colour(ColourSet set) { return (set & (red | green | blue)) != 0; }
+
+struct SampleColours {
+    std::size_t groups = 0, count = 0; // of channels / 4, of samples
+    LargeArray<float> values;
+    std::vector<ColourSet> sets = {}; // [channel], of all groups; the channels that fill up the last are data
+
+    std::span<const float> group(std::size_t g) const {
+        return std::span(values).subspan(g * count * 4, count * 4);
+    }
+    float &at(std::size_t channel, std::size_t sample) {
+        return values[(channel / 4 * count + sample) * 4 + channel % 4];
+    }
+    float at(std::size_t channel, std::size_t sample) const {
+        return values[(channel / 4 * count + sample) * 4 + channel % 4];
+    }
+};
+
+// `count` >= the number of channels.
+inline std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
+    std::vector<ColourSet> sets(count, data);
+    constexpr std::array of_part{data, red, green, blue, coverage};
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+        sets[k] = of_part[std::size_t(colour_part(ldi.channels[k]))];
+    return sets;
+}
+
+inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
+    const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
+    SampleColours colours{groups, count, LargeArray<float>(groups * count * 4), colour_sets(ldi, groups * 4)};
+    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < groups * 4; ++k) {
+                const bool has_value = k < channels && samples.source[i] != BlockedSamples::background;
+                colours.at(k, i) = has_value ? ldi.values[k][samples.source[i]] : 0;
+            }
+    });
+    return colours;
+}
+
+// Channels that are light, without coverage; and the channels among them that say how bright a sample is.
+struct LightChannels {
+    std::vector<std::size_t> all, brightness;
+};
+
+inline LightChannels light_channels(const Ldi &ldi) {
+    LightChannels light;
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        const Channel &channel = ldi.channels[k];
+        if (!is_light(channel) || k == ldi.alpha()) continue;
+        light.all.push_back(k);
+        if (channel.name == "R" || channel.name == "G" || channel.name == "B") light.brightness.push_back(k);
+    }
+    return light;
+}
+
+// The solids behind samples (Ldi::solid), as lens points see them: each such sample once more, farther away by its
+// solid.
+//
+// A lens point that sees something behind a solid sees the solid instead: light finds no way through a gap as narrow as
+// what no view saw through. This holds for things at least as far behind the solid as the solid lies behind its sample.
+// Cracks and fillers come first: they decide where a lens point meets nothing opaque.
+//
+// A solid shows the colour of its sample. If the sample covers less than its pixel, as on edges, the solid shows the
+// opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;
+// without such a sample there is no solid. Mirrors and glass, which show images, are not solid.
+
+// Returns the solids of an LDI, in the blocks of its `samples`, before looks move them (gather_scene.h); no blocks if nothing
+// is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is farther.
+// Their key has that depth, and names the one of `samples` that shows.
+BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
 
 } // namespace sparselens

@@ -1,10 +1,11 @@
 #include "dof/lens/see.h"
 
+#include "base/parallel.h"
 #include "dof/facets/placed_facets.h"
-#include "dof/lens/cell_rows.h"
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@ using namespace tile_cells;
 
 namespace {
 
-static_assert(size == 64); // cell_rows.h
+static_assert(size == 64); // see.h
 
 // Calls visit(begin, cells) for the opaque samples of a block, a few at once. `cells`: where the lens point sees the
 // samples from `begin` on.
@@ -121,7 +122,7 @@ void See::see_facets(const LensSample &point) {
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
 }
 
-// Solids hide what lies behind them (solid_samples.h).
+// Solids hide what lies behind them (sample_blocks.h).
 void See::see_solids(const LensSample &point) {
     if (tile_.solids.empty()) return;
     const BlockedSamples &solids = scene_.solids;
@@ -267,6 +268,97 @@ void See::close_cracks() {
         seen_.front[crack.cell] = crack.key;
         if (!seen_.images.empty()) seen_.images[crack.cell] = crack.key;
     }
+}
+
+namespace {
+
+using lens_kernel::border;
+
+// Sorts by depth, the nearest first, then by index.
+std::uint64_t order_key(float depth, std::uint32_t sample) {
+    return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
+}
+
+} // namespace
+
+PartialSamples partial_samples_of(const BlockedSamples &samples, const TileTask &tile) {
+    float reach_x = 0, reach_y = 0, beside = border; // per pixel of CoC; and besides
+    for (const LensSample &p : tile.lens) {
+        reach_x = std::max(reach_x, std::abs(p.x));
+        reach_y = std::max(reach_y, std::abs(p.y));
+        beside = std::max({beside, border + std::abs(p.pixel_x), border + std::abs(p.pixel_y)});
+    }
+    const auto in_reach = [&](std::uint32_t i) {
+        const float coc = std::abs(samples.coc[i]), x = samples.x[i] - float(tile.origin.x),
+                    y = samples.y[i] - float(tile.origin.y);
+        const float across = coc * reach_x + beside, down = coc * reach_y + beside;
+        return x > -across && x < float(tile.size) + across && y > -down && y < float(tile.size) + down;
+    };
+    std::vector<std::uint64_t> order;
+    for (const std::uint32_t b : tile.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
+            if (in_reach(i)) order.push_back(order_key(samples.depth(i), i));
+    std::sort(order.begin(), order.end());
+    PartialSamples partial;
+    partial.sample.assign(order.begin(), order.end()); // the lower half
+    const auto in_order = [&](auto &to, const auto &value) {
+        to.resize(order.size());
+        std::ranges::transform(partial.sample, to.begin(), value);
+    };
+    in_order(partial.x, [&](std::uint32_t i) { return samples.x[i]; });
+    in_order(partial.y, [&](std::uint32_t i) { return samples.y[i]; });
+    in_order(partial.coc, [&](std::uint32_t i) { return samples.coc[i]; });
+    in_order(partial.depth, [&](std::uint32_t i) { return samples.depth(i); });
+    in_order(partial.left, [&](std::uint32_t i) { return 1 - samples.alpha[i]; });
+    in_order(partial.key, [&](std::uint32_t i) { return samples.key(i); });
+    return partial;
+}
+
+namespace {
+
+constexpr int half = 32;
+constexpr std::array<std::uint32_t, half> one_bit = [] {
+    std::array<std::uint32_t, half> bits{};
+    for (std::size_t n = 0; n < half; ++n) bits[n] = std::uint32_t{1} << n;
+    return bits;
+}();
+
+// Without a branch.
+std::uint32_t bit_if(bool is_set, std::size_t n) { return (0 - std::uint32_t(is_set)) & one_bit[n]; }
+
+[[gnu::always_inline]] inline std::uint32_t zeros_of_half(const std::uint64_t *keys) {
+    std::uint32_t zeros = 0;
+    for (std::size_t n = 0; n < half; ++n) zeros |= bit_if(kernels::upper_of(keys[n]) == 0, n);
+    return zeros;
+}
+
+[[gnu::always_inline]] inline std::uint32_t far_behind_of_half(const float *depths, std::ptrdiff_t stride) {
+    std::uint32_t far = 0;
+    for (std::ptrdiff_t n = 0; n < std::ptrdiff_t(half); ++n) {
+        const float *depth = depths + n;
+        const float sides = std::max(std::min(depth[-1], depth[1]), std::min(depth[-stride], depth[stride])),
+                    corners = std::max(std::min(depth[-stride - 1], depth[stride + 1]),
+                                       std::min(depth[-stride + 1], depth[stride - 1]));
+        far |= bit_if(std::max(sides, corners) > depth[0] + kernels::behind_crack_px, std::size_t(n));
+    }
+    return far;
+}
+
+} // namespace
+
+FOR_PROCESSORS std::uint64_t zeros_of(const std::uint64_t *keys) {
+    return std::uint64_t{zeros_of_half(keys + half)} << half | zeros_of_half(keys);
+}
+
+FOR_PROCESSORS void depths_of(std::span<const std::uint64_t> keys, float *depths) {
+    const std::size_t count = keys.size(); // local copies rule out aliasing
+    const std::uint64_t *key = keys.data();
+    for (std::size_t i = 0; i < count; ++i) depths[i] = kernels::depth_of(kernels::upper_of(key[i]));
+}
+
+FOR_PROCESSORS std::uint64_t far_behind(const float *depths, std::ptrdiff_t stride) {
+    return std::uint64_t{far_behind_of_half(depths + half, stride)} << half |
+           far_behind_of_half(depths, stride);
 }
 
 } // namespace sparselens

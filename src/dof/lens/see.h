@@ -7,10 +7,10 @@
 
 #include "dof/device/tile_device.h"
 #include "dof/lens/gather_scene.h"
-#include "dof/lens/lens_tiles.h"
-#include "dof/lens/partial_samples.h"
+#include "dof/lens/lens_gather.h"
+#include "dof/lens/sample_blocks.h"
 #include "dof/lens/tile_projection.h"
-#include "kernels/lens_layout.h"
+#include "kernels/lens_rules.h"
 #include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 
@@ -18,10 +18,26 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sparselens {
+
+// Samples of partial coverage that a tile may see, front to back. What is needed of them is stored contiguously in that
+// order, because they are many.
+struct PartialSamples {
+    std::vector<std::uint32_t> sample; // of the BlockedSamples
+    std::vector<float> x, y, coc, depth;
+    std::vector<float> left; // what each leaves of the light behind it
+    std::vector<std::uint64_t> key;
+
+    std::size_t count() const { return sample.size(); }
+};
+
+// The samples that some lens point brings into the tile, or into a pixel next to it.
+PartialSamples partial_samples_of(const BlockedSamples &samples, const TileTask &tile);
 
 // The cells of a tile: its pixels, a border of one pixel around them, and a border of cells that take what falls
 // outside of both.
@@ -116,5 +132,18 @@ private:
     std::vector<float> depths_; // [cell]: of what is in front there
     Seen seen_;
 };
+
+// Tests several cells of a tile at once: which of them are empty, and where a crack may lie. The results are
+// the same on every processor.
+
+// Returns a bit for each of 64 keys: whether it is 0.
+std::uint64_t zeros_of(const std::uint64_t *keys);
+
+// Writes the perceptive depth, in pixels, of each key (kernels/lens_rules.h).
+void depths_of(std::span<const std::uint64_t> keys, float *depths);
+
+// Returns a bit for each of 64 cells: whether it shows something farther than the cells on two opposite sides of it, so
+// that a crack may lie there. `stride`: from one row to the next. The cells around the 64 are read as well.
+std::uint64_t far_behind(const float *depths, std::ptrdiff_t stride);
 
 } // namespace sparselens

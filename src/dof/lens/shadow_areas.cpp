@@ -3,9 +3,108 @@
 #include "base/grid.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace sparselens {
+
+namespace {
+
+NearSteps steps_of(std::span<const JoinedFootprint> footprints) {
+    constexpr std::size_t in_step = 1; // bounds that include samples at the lamp's depth would tell nothing
+    std::vector<NearBounds> bounds;
+    bounds.reserve(footprints.size() + 1);
+    for (const auto &[footprint, farthest, nearest, sample] : footprints) {
+        const auto &[place, coc] = footprint;
+        const auto [least, most] = std::ranges::minmax(coc);
+        bounds.push_back({nearest, place[0], place[1], place[2], place[3], least, most});
+    }
+    return {std::move(bounds), in_step};
+}
+
+} // namespace
+
+BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links)
+    : ldi_(ldi), samples_(samples), links_(std::move(links)), areas_(samples, links_ ? &*links_ : nullptr),
+      made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
+
+const std::vector<JoinedFootprint> &BlockFootprints::Block::apart_from(float farthest, float nearest) const {
+    const bool parts = std::ranges::any_of(joined, [&](const JoinedFootprint &one) {
+        return one.depth <= nearest && one.nearest > farthest && one.depth < one.nearest;
+    });
+    return parts ? alone : joined;
+}
+
+const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
+    std::call_once(made_[block], [&] {
+        Block &made = computed_[block];
+        const std::vector<Footprint> footprints = compute(block);
+        const SampleBlock &own = samples_.blocks[block];
+        const SampleRun run{own.begin, own.end};
+        made.alone = joined(in_picture(), run, own.begin, footprints);
+        made.joined = joined(in_picture(), run, own.opaque_end, footprints);
+        made.near = steps_of(made.joined);
+    });
+    return computed_[block];
+}
+
+SamplesInPicture BlockFootprints::in_picture() const {
+    return {samples_.x,     samples_.y,      samples_.hiding_coc(),
+            samples_.upper, samples_.source, links_ ? &*links_ : nullptr};
+}
+
+std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
+    constexpr int size = BlockedSamples::size;
+    const int column = int(block) % samples_.columns, row = int(block) / samples_.columns;
+    std::vector<SampleRun> around;
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, samples_.rows - 1); ++r)
+        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, samples_.columns - 1); ++c) {
+            const SampleBlock &b = samples_.blocks[std::size_t(r * samples_.columns + c)];
+            around.push_back({b.begin, b.end});
+        }
+    const SampleBlock &own = samples_.blocks[block];
+    const Imath::V2i first = Imath::V2i(column, row) * size;
+    return footprints_of(ldi_, in_picture(), {first, first + Imath::V2i(size - 1)}, {own.begin, own.end},
+                         around);
+}
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::infinity();
+
+void extend(NearBounds &bounds, const NearBounds &by) {
+    bounds.x_min = std::min(bounds.x_min, by.x_min);
+    bounds.x_max = std::max(bounds.x_max, by.x_max);
+    bounds.y_min = std::min(bounds.y_min, by.y_min);
+    bounds.y_max = std::max(bounds.y_max, by.y_max);
+    bounds.coc_min = std::min(bounds.coc_min, by.coc_min);
+    bounds.coc_max = std::max(bounds.coc_max, by.coc_max);
+}
+
+} // namespace
+
+// Works in place: a step overwrites samples that it already includes.
+NearSteps::NearSteps(std::vector<NearBounds> samples, std::size_t in_step) : steps_(std::move(samples)) {
+    std::ranges::sort(steps_, std::ranges::greater(), &NearBounds::depth);
+    std::size_t steps = 0;
+    NearBounds bounds{0, none, -none, none, -none, none, -none};
+    for (std::size_t n = 0; n < steps_.size(); ++n) {
+        const NearBounds sample = steps_[n];
+        bounds.depth = sample.depth;
+        if (n % in_step == 0) steps_[steps++] = bounds;
+        extend(bounds, sample);
+    }
+    bounds.depth = -none;
+    steps_.resize(steps);
+    if (in_step > 1) steps_.shrink_to_fit();
+    steps_.push_back(bounds);
+}
+
+const NearBounds *NearSteps::nearer_than(float depth) const {
+    const auto is_too_few = [&](const NearBounds &step) { return step.depth > depth; };
+    const auto step = std::ranges::partition_point(steps_, is_too_few);
+    return step == steps_.begin() ? nullptr : &*step;
+}
 
 namespace {
 

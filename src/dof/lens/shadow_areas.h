@@ -1,19 +1,45 @@
-// Bounds of what may cast shadows on small lamps, by areas of 8 x 8 blocks. Most areas cast no shadow on a lamp in a
-// tile; their blocks need not be tested.
+// What may cast shadows on small lamps: the footprints of samples by blocks, and bounds of blocks and areas of
+// blocks, so that most of them need not be looked at.
 #pragma once
 
 #include "dof/footprints/footprint.h"
-#include "dof/lens/near_bounds.h"
 #include "dof/lens/sample_blocks.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace sparselens {
 
+// Bounds of the samples, among many, that are nearer than some depth. Samples outside these bounds cast no shadow on a
+// lamp.
+
+// Bounds of all samples nearer than some depth, and perhaps of some others.
+struct NearBounds {
+    float depth; // of the nearest sample that is not included, perceptive, pixels
+    float x_min, x_max, y_min, y_max, coc_min, coc_max;
+};
+
+class NearSteps {
+public:
+    NearSteps() = default;
+    // Takes the depth and the extent of each sample. One step is kept for every `in_step` samples.
+    NearSteps(std::vector<NearBounds> samples, std::size_t in_step);
+
+    // The bounds of all samples nearer than a depth; null: there are none.
+    const NearBounds *nearer_than(float depth) const;
+
+private:
+    // Each step includes more samples, the nearest first. The first step has none, the last one has all.
+    std::vector<NearBounds> steps_;
+};
+
+// Bounds of what may cast shadows on small lamps, by areas of 8 x 8 blocks. Most areas cast no shadow on a lamp in a
+// tile; their blocks need not be tested.
 struct CocRange {
     float least, most; // pixels, signed
 };
@@ -90,6 +116,39 @@ private:
     mutable std::vector<CocRange> focus_;
     mutable std::vector<BlockDepths> block_depths_;
     mutable std::vector<float> to_edges_; // [block]
+};
+
+// The footprints of the samples of a picture, by blocks. The shadows on small lamps (highlight_tile.h) are computed
+// from them.
+class BlockFootprints {
+public:
+    // `links`: of the LDI that the samples are from. Without them, samples that part are not joined.
+    BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links = {});
+    BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
+
+    struct Block {
+        std::vector<JoinedFootprint> alone, joined; // footprints of its samples
+        NearSteps near;                             // bounds of the joined footprints
+
+        // Returns the joined footprints; the single ones if a joined one could lie on both sides of a lamp whose
+        // perceptive depth is between these.
+        const std::vector<JoinedFootprint> &apart_from(float farthest, float nearest) const;
+    };
+    // Computed when first asked for, by any thread.
+    const Block &of(std::uint32_t block) const;
+    // Bounds of areas of many blocks, which need no footprints.
+    const ShadowAreas &areas() const { return areas_; }
+
+private:
+    SamplesInPicture in_picture() const;
+    std::vector<Footprint> compute(std::uint32_t block) const;
+
+    const Ldi &ldi_;
+    const BlockedSamples &samples_;
+    std::optional<Links> links_;
+    ShadowAreas areas_;
+    mutable std::vector<std::once_flag> made_;
+    mutable std::vector<Block> computed_;
 };
 
 } // namespace sparselens

@@ -4,16 +4,22 @@
 // the lamp.
 #pragma once
 
-#include "dof/lens/block_footprints.h"
+#include "base/numbers.h"
+#include "dof/footprints/footprint.h"
+#include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
+#include "dof/lens/shadow_areas.h"
 #include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -148,6 +154,63 @@ void ShadowSearch::in_picture(const ShadowedLamp &lamp, const Visit &visit) cons
                 cocs && !in_blocks(lamp, set, areas.blocks_of(area), *cocs, visit))
                 return;
     }
+}
+
+// Finds where the four edges of a caster's shadow lie on a lamp's screen (lens/lamp_shadow.h).
+struct ShadowEdges {
+    // The edges of the footprint, in its order: pixels, except the magnification.
+    Float4 coc, magnified, from_lamp, at;
+
+    // `across`, `corner`: as in ShadowCasters.
+    ShadowEdges(const ShadowedLamp &lamp, float across, const Imath::V2f &corner, const Footprint &footprint);
+
+    // Whether an edge is as blurred as the lamp and lies directly in front of it; then there is no shadow.
+    bool as_blurred() const;
+    // The shadow. If an edge is more blurred than the lamp, the shadow lies on its other side.
+    Imath::Box2f shadow() const;
+    // Whether the shadow on some member of a group may reach the group's screen. This must be the shadow on its middle
+    // lamp.
+    bool may_reach(const ShadowedLamp &group) const;
+};
+
+// Whether some of a shadow lies in a box of pixels.
+bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box);
+
+// Lists of what may cast shadows on wide discs, made once for all tiles of a picture: a disc reaches many tiles, and
+// few of the blocks in front of it are near enough to its light's path.
+class ShadowLists {
+public:
+    // Lists for groups of highlights among these samples.
+    ShadowLists(const Highlights &highlights, const BlockedSamples &samples);
+
+    // Returns the list of the group with this first member. The first call, by any thread, takes it from find(). Null:
+    // the disc of the group is small, or the list is too long to be kept.
+    template <typename Find>
+    const std::vector<CastingBlock> *of(std::uint32_t first_member, const Find &find) const;
+
+private:
+    struct List {
+        std::once_flag found;
+        std::vector<CastingBlock> blocks;
+        bool kept = false;
+    };
+    static constexpr std::uint32_t none = 0xffffffffu;
+    // [highlight]: the number of its group's list if it is the first of the group; or none
+    std::vector<std::uint32_t> number_;
+    std::size_t longest_ = 0;
+    mutable std::vector<List> lists_;
+};
+
+template <typename Find>
+const std::vector<CastingBlock> *ShadowLists::of(std::uint32_t first_member, const Find &find) const {
+    if (number_[first_member] == none) return nullptr;
+    List &list = lists_[number_[first_member]];
+    std::call_once(list.found, [&] {
+        std::vector<CastingBlock> blocks = find();
+        list.kept = blocks.size() <= longest_;
+        if (list.kept) list.blocks = {blocks.begin(), blocks.end()}; // without spare capacity
+    });
+    return list.kept ? &list.blocks : nullptr;
 }
 
 } // namespace sparselens

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "dof/footprints/interpolation_blur.h"
-#include "dof/footprints/surface_neighbours.h"
 #include "dof/tuning.h"
 
 #include <algorithm>

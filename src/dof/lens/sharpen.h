@@ -9,7 +9,6 @@
 
 #include "deep/ldi.h"
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/sample_colours.h"
 #include "lens/aperture.h"
 #include "lens/focus_field.h"
 #include "lens/thin_lens.h"
@@ -31,7 +30,7 @@ struct SharpenLooks {
 
 // Every channel of a sample is changed by the same weights (so that layers still add up to the beauty), chosen such
 // that R, G and B do not become negative. Its neighbours lose what a sample gains, so that light is kept. `colours`
-// holds the colours of `samples` (sample_colours.h). The part of the lens that a cat-eye cuts counts as open.
+// holds the colours of `samples` (sample_blocks.h). The part of the lens that a cat-eye cuts counts as open.
 void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
                         SampleColours &colours, const SharpenLooks *looks = nullptr);
 

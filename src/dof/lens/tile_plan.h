@@ -5,13 +5,17 @@
 #include "dof/lens/cells.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
-#include "dof/lens/lens_tiles.h"
-#include "dof/lens/scene_blocks.h"
+#include "dof/lens/sample_blocks.h"
+#include "lens/aperture.h"
 #include "lens/lens_samples.h"
+
+#include <Imath/ImathVec.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -19,6 +23,57 @@
 #include <vector>
 
 namespace sparselens {
+
+// The CoCs of the samples that can reach a tile, without their signs, pixels.
+struct ReachingCocs {
+    // The largest that shows. Backgrounds count only where something opaque hides them.
+    float largest = 0;
+    float least = std::numeric_limits<float>::max();
+    bool with_background = false; // whether a background reaches it
+};
+
+class BlockFinder {
+public:
+    // The samples must outlive this.
+    BlockFinder(const BlockedSamples &samples, const Aperture &aperture, double pixel_aspect);
+
+    // Finds, in order, the blocks that can reach a tile or the pixels next to it. `stretched`: the largest factor by
+    // which lens points are stretched.
+    ReachingCocs find(const Imath::V2i &origin, int size, float stretched,
+                      std::vector<std::uint32_t> &found) const;
+    float extent() const { return extent_; }
+
+private:
+    float reach_of(const SampleBlock &block) const;
+    // Some consecutive blocks, and how far they reach.
+    struct Run {
+        std::uint32_t begin, end;
+        float x_min, x_max, y_min, y_max, reach;
+    };
+
+    const BlockedSamples &samples_;
+    float extent_; // of the aperture, pixels per pixel of CoC
+    std::vector<Run> runs_;
+};
+
+struct TileBlocks {
+    std::vector<std::uint32_t> samples, facets, fillers, solids;
+};
+
+class SceneBlocks {
+public:
+    // The scene outlives this.
+    explicit SceneBlocks(const GatherScene &scene);
+
+    // Finds the blocks of the tile [origin, origin + size), relative to the data window's corner like the samples.
+    // `stretched`: the largest factor by which lens points are stretched.
+    ReachingCocs find(const Imath::V2i &origin, int size, float stretched, TileBlocks &found) const;
+    float extent() const { return samples_.extent(); } // of the aperture, for each pixel of CoC
+
+private:
+    const GatherScene &scene_;
+    BlockFinder samples_, fillers_, solids_;
+};
 
 // The sets of lens points that tiles choose from. Each is made when it is first asked for, by any thread.
 class LensSets {

@@ -1,6 +1,6 @@
 #include "dof/lens/tile_projection.h"
 
-#include "base/for_processors.h"
+#include "base/parallel.h"
 #include "kernels/lens_rules.h"
 
 #include <algorithm>

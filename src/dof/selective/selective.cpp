@@ -3,9 +3,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dof/device/tile_device.h"
-#include "dof/selective/blend.h"
 #include "dof/selective/splats.h"
-#include "kernels/splat_layout.h"
+#include "kernels/layer_rules.h"
 #include "lens/psf.h"
 
 #include <tbb/enumerable_thread_specific.h>

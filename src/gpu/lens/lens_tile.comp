@@ -1,5 +1,5 @@
 #version 460
-// The lens gather of a quarter of a tile: the same as src/dof/lens/gather_tile.h, with the same sums in the same order.
+// The lens gather of a quarter of a tile: the same as src/dof/lens/lens_gather.cpp, with the same sums in the same order.
 //
 // A work group takes the lens points one after the other. It finds the blocks that the lens point moves into its
 // pixels, and the nearest opaque sample or facet of these in each cell, by the atomic maximum of their keys in shared
@@ -17,17 +17,12 @@
 
 #define Real float
 #include "kernels/surface.h"
-#include "kernels/lens_layout.h"
 #include "kernels/lens_rules.h"
-#include "kernels/holdout_rules.h"
 #include "tile_data.glsl"
 
 layout(local_size_x = threads) in;
 
-#include "tile_opaque.glsl"
-#include "tile_images.glsl"
-#include "tile_unseen.glsl"
-#include "tile_holdout.glsl"
+#include "tile_seen.glsl"
 #include "tile_partial.glsl"
 #include "tile_sums.glsl"
 

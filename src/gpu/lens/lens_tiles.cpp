@@ -2,7 +2,7 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
-#include "gpu/lens/tile_rules.h"
+#include "gpu/lens/stripe.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,84 @@
 #include "gpu/lens/stripe.h"
 
 #include "base/parallel.h"
-#include "gpu/lens/stripe_ranges.h"
-#include "gpu/lens/tile_rules.h"
+#include "deep/merge.h"
+#include "dof/device/tile_device.h"
+#include "dof/lens/gather_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace sparselens::gpu {
+
+// Finds which blocks of a scene tiles are gathered from.
+
+// A range of blocks, and of the samples or facets in them, which follow each other.
+struct Range {
+    std::uint32_t first_block = ~0u, end_block = 0;
+
+    void add(std::uint32_t first, std::uint32_t last) {
+        first_block = std::min(first_block, first);
+        end_block = std::max(end_block, last + 1);
+    }
+    void add(std::span<const std::uint32_t> blocks) { // in ascending order
+        if (!blocks.empty()) add(blocks.front(), blocks.back());
+    }
+    void add_all(const auto &of) {
+        if (!of.blocks.empty()) add(0, std::uint32_t(of.blocks.size() - 1));
+    }
+    std::size_t blocks() const { return first_block < end_block ? end_block - first_block : 0; }
+    std::uint32_t first(const auto &of) const { return blocks() > 0 ? of.blocks[first_block].begin : 0; }
+    std::size_t count(const auto &of) const {
+        return blocks() > 0 ? of.blocks[end_block - 1].end - first(of) : 0;
+    }
+};
+
+// The ranges of a scene that tiles are gathered from.
+struct Ranges {
+    Range samples, fillers, facets, solids;
+
+    void add(const GatherScene &scene, const TileTask &task) {
+        samples.add(task.samples);
+        fillers.add(task.fillers);
+        facets.add(task.facets);
+        solids.add(task.solids);
+        for (const std::uint32_t b : task.facets)
+            for (const auto &corners : scene.facets.key) add_named(scene, corners, scene.facets.blocks[b]);
+        for (const std::uint32_t b : task.solids)
+            add_named(scene, scene.solids.named, scene.solids.blocks[b]);
+    }
+    void add_all(const GatherScene &scene) {
+        samples.add_all(scene.samples);
+        fillers.add_all(scene.fillers.samples);
+        facets.add_all(scene.facets);
+        if (!scene.one_view) solids.add_all(scene.solids);
+    }
+    std::size_t sample_count(const GatherScene &scene) const {
+        return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
+    }
+
+private:
+    // Adds the samples that the lower halves of a block's keys name (`keys`). A facet can reach a tile that some of its
+    // corners do not reach, and a solid can reach a tile that the sample which it shows does not reach.
+    void add_named(const GatherScene &scene, const auto &keys, const auto &block) {
+        std::uint32_t least = ~0u, most = 0;
+        for (std::uint32_t i = block.begin; i < block.end; ++i) {
+            least = std::min(least, std::uint32_t(keys[i]));
+            most = std::max(most, std::uint32_t(keys[i]));
+        }
+        if (least <= most) samples.add(block_of(scene.samples, least), block_of(scene.samples, most));
+    }
+    static std::uint32_t block_of(const BlockedSamples &samples, std::uint32_t sample) {
+        const auto after = std::ranges::upper_bound(samples.blocks, sample, {}, &SampleBlock::begin);
+        return std::uint32_t(after - samples.blocks.begin() - 1);
+    }
+};
 
 namespace {
 
@@ -233,6 +304,114 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
                       tasks[t]);
     });
     return stripe;
+}
+
+using namespace lens_kernel;
+
+namespace {
+
+constexpr int rows_a_word = 2;
+constexpr std::size_t words_a_lens_point = tile_size / rows_a_word;
+constexpr std::size_t words_a_part = 3;
+
+} // namespace
+
+std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens) {
+    const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
+    std::uint32_t rules = 0;
+    if (any([](const LensSample &p) { return p.rgb != no_factors; })) rules |= weighted;
+    if (any([](const LensSample &p) { return p.behind != no_factors || p.in_front != no_factors; }))
+        rules |= weighted | two_sided;
+    if (scene.cat_eye()) rules |= weighted | cat_eye;
+    if (scene.cat_eye() && scene.cat_eye()->darkens()) rules |= darkens;
+    if (scene.held_out.by) rules |= holdout;
+    return rules;
+}
+
+std::size_t column_words(const GatherScene &scene, const TileTask &task) {
+    return scene.cat_eye() ? task.lens.size() * words_a_lens_point : 0;
+}
+
+void place_columns(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task) {
+    const Imath::V2i first = scene.held_out.corner + task.origin;
+    for (std::size_t word = 0; word < to.size(); ++word) {
+        const LensSample &point = task.lens[word / words_a_lens_point];
+        to[word] = 0;
+        for (int row = 0; row < rows_a_word; ++row) {
+            const int y = int(word % words_a_lens_point) * rows_a_word + row;
+            const auto [begin, end] = scene.cat_eye()->columns(point, first.x, tile_size, first.y + y);
+            to[word] |= std::uint32_t(begin | end << 8) << 16 * row;
+        }
+    }
+}
+
+std::size_t holdout_words(const GatherScene &scene, const TileTask &task) {
+    if (!scene.held_out.by) return 0;
+    const Imath::V2i first = scene.held_out.corner + task.origin;
+    return tile_pixels + 1 +
+           words_a_part * scene.held_out.by->parts_in({first, first + Imath::V2i(tile_size - 1)});
+}
+
+void place_holdout(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task) {
+    if (!scene.held_out.by) return;
+    const Imath::V2i first = scene.held_out.corner + task.origin;
+    std::vector<Holdout::Part> parts;
+    for (int y = 0; y < tile_size; ++y)
+        for (int x = 0; x < tile_size; ++x) {
+            to[std::size_t(y * tile_size + x)] = std::uint32_t(parts.size());
+            scene.held_out.by->append_parts(first.x + x, first.y + y, parts);
+        }
+    to[tile_pixels] = std::uint32_t(parts.size());
+    std::uint32_t *word = &to[tile_pixels + 1];
+    for (const Holdout::Part &part : parts)
+        for (const float value : {part.front, part.back, part.clear})
+            *word++ = std::bit_cast<std::uint32_t>(value);
+}
+
+namespace {
+
+constexpr float margin = 2; // pixels: those next to the quarter, and rounding
+constexpr float size = lens_kernel::size;
+
+// How far lens points move a sample: per pixel of CoC, and besides.
+struct Reach {
+    float x = 0, y = 0, all = 0;
+};
+
+Reach reach_of(const TileTask &task) {
+    Reach reach;
+    for (const LensSample &p : task.lens) {
+        reach.x = std::max(reach.x, std::abs(p.x));
+        reach.y = std::max(reach.y, std::abs(p.y));
+        reach.all = std::max({reach.all, std::abs(p.pixel_x), std::abs(p.pixel_y)});
+    }
+    return reach;
+}
+
+bool within(float at, float first, float reach) { return at > first - reach && at < first + size + reach; }
+
+} // namespace
+
+PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task) {
+    const Reach reach = reach_of(task);
+    std::vector<std::uint32_t> sorted;
+    for (const std::uint32_t b : task.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
+            sorted.push_back(i);
+    std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
+        return samples.depth(a) != samples.depth(b) ? samples.depth(a) > samples.depth(b) : a < b;
+    });
+    PartialLists lists;
+    for (const std::uint32_t i : sorted) {
+        const float coc = std::abs(samples.hiding_coc()[i]), beside = reach.all + margin,
+                    across = coc * reach.x + beside, down = coc * reach.y + beside;
+        for (std::size_t q = 0; q < lens_kernel::quarters; ++q) {
+            const float left = float(task.origin.x) + float(q % 2) * size,
+                        top = float(task.origin.y) + float(q / 2) * size;
+            if (within(samples.x[i], left, across) && within(samples.y[i], top, down)) lists[q].push_back(i);
+        }
+    }
+    return lists;
 }
 
 } // namespace sparselens::gpu

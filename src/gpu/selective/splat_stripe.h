@@ -6,7 +6,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "kernels/splat_layout.h"
+#include "kernels/layer_rules.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -8,7 +8,6 @@
 #include "kernels/surface.h"
 #include "kernels/warp_layout.h"
 #include "kernels/warp_rules.h"
-#include "kernels/photo_rules.h"
 #include "kernels/coc_rules.h"
 
 layout(local_size_x = threads) in;

@@ -20,7 +20,7 @@ uint begin_at(View view, double x, double y) {
     return view.begins + uint(row * (view.max_x - view.min_x + 1) + int(floor(x)) - view.min_x);
 }
 
-// Like is_missing() of src/warp/balance.h.
+// Like is_missing() of src/warp/coverage.h.
 bool is_missing(View view, double x, double y, double inverse_z) {
     double seen_x, seen_y;
     if (!in_view(view, x, y, inverse_z, seen_x, seen_y)) return false;

@@ -1,7 +1,7 @@
 #include "gpu/warp/warp_stripe.h"
 
 #include "base/parallel.h"
-#include "kernels/photo_rules.h"
+#include "kernels/warp_rules.h"
 #include "warp/reprojected_views.h"
 
 #include <algorithm>

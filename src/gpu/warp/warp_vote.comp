@@ -1,6 +1,6 @@
 #version 460
 // Counts the final samples of a pixel, one thread per pixel: one for each surface, except surfaces that the vote of the
-// views rejects (src/warp/visibility_vote.cpp). means[] holds coverages from then on.
+// views rejects (src/warp/coverage.cpp). means[] holds coverages from then on.
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 #include "warp_merge.glsl"

@@ -1,6 +1,6 @@
 #include "io/camera/camera_attributes.h"
 
-#include "io/exr/header_values.h"
+#include "io/exr/exr_header.h"
 
 #include <fmt/format.h>
 

@@ -29,4 +29,14 @@ ShownPixels shown_pixels(const std::string &name, const Image &image);
 // Writes the same as a file; its extension selects the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);
 
+// The names under which pictures may be written. The ending selects the format. A wrong ending is an error, reported
+// before any work is done.
+enum class OutputKind {
+    exr,    // deep pictures, depths, and all else that only EXR can hold
+    picture // EXR, or one of the formats for the screen
+};
+
+// Says why the name is wrong, with the list of endings; empty if it is right. `-`, pipes and devices need no ending.
+std::string wrong_with_output(const std::string &path, OutputKind kind);
+
 } // namespace sparselens

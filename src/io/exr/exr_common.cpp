@@ -1,9 +1,12 @@
 #include "io/exr/exr_common.h"
 
+#include "base/channel_kind.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "io/exr/kept_names.h"
+#include "io/exr/exr_header.h"
 
+#include <ImfStringAttribute.h>
+#include <ImfStringVectorAttribute.h>
 #include <ImfTileDescription.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +17,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 namespace sparselens {
 
@@ -110,6 +114,76 @@ std::size_t store(PixelType type, const float *from, std::size_t count, char *to
                         (end - begin) * size); // ids keep their bits, see PixelType
     });
     return clamped;
+}
+
+namespace {
+constexpr const char *prefix = "cryptomatte/";
+} // namespace
+
+std::vector<std::string> matte_names(const Imf::Header &header) {
+    std::vector<std::string> names;
+    for (auto it = header.begin(); it != header.end(); ++it) {
+        const std::string name = it.name();
+        const auto *text = dynamic_cast<const Imf::StringAttribute *>(&it.attribute());
+        if (text && name.starts_with(prefix) && name.ends_with("/name")) names.push_back(text->value());
+    }
+    return names;
+}
+
+Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header header) {
+    for (int part = 0; part < file.parts(); ++part) {
+        const Imf::Header &other = file.header(part);
+        for (auto it = other.begin(); it != other.end(); ++it)
+            if (std::string(it.name()).starts_with(prefix) && header.find(it.name()) == header.end())
+                header.insert(it.name(), it.attribute());
+    }
+    return header;
+}
+
+void find_kinds_by(const Imf::Header &header, std::span<Channel> channels) {
+    find_kinds(channels, matte_names(header));
+}
+
+void find_kinds_by(const Imf::Header &header, std::vector<FileChannel> &channels) {
+    std::vector<Channel> plain;
+    for (const FileChannel &found : channels) plain.push_back(found.channel);
+    find_kinds_by(header, plain);
+    for (std::size_t k = 0; k < channels.size(); ++k) channels[k].channel = plain[k];
+}
+
+void set_kept_names(Imf::Header &header, const KeptNames &names) {
+    if (header.find(kept_names_attribute) != header.end())
+        header = without_attribute(header, kept_names_attribute);
+    Imf::StringVector pairs;
+    for (const auto &[known, in_file] : names) pairs.insert(pairs.end(), {known, in_file});
+    if (!pairs.empty()) header.insert(kept_names_attribute, Imf::StringVectorAttribute(pairs));
+}
+
+void name_colours(std::span<Channel> channels, Imf::Header &header) {
+    const std::vector<std::string> known = names_of_colours(channels);
+    KeptNames kept;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (channels[k].name != known[k]) {
+            kept[known[k]] = channels[k].name;
+            channels[k].name = known[k];
+        }
+    set_kept_names(header, kept);
+}
+
+std::vector<Channel> by_kept_names(std::span<const Channel> channels, const Imf::Header &metadata) {
+    std::vector<Channel> named(channels.begin(), channels.end());
+    const auto *attribute = metadata.findTypedAttribute<Imf::StringVectorAttribute>(kept_names_attribute);
+    if (!attribute) return named;
+    std::set<std::string> taken;
+    for (const Channel &channel : channels) taken.insert(channel.name);
+    const Imf::StringVector &pairs = attribute->value();
+    for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
+        if (const std::size_t k = find_channel(channels, pairs[i]);
+            k != npos && !taken.contains(pairs[i + 1])) {
+            taken.insert(pairs[i + 1]);
+            named[k].name = pairs[i + 1];
+        }
+    return named;
 }
 
 } // namespace sparselens

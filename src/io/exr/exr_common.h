@@ -3,14 +3,19 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "io/exr/exr_parts.h"
 #include "io/files/file_stream.h"
 
 #include <ImfChannelList.h>
 #include <ImfHeader.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfPixelType.h>
+#include <OpenEXRConfig.h>
 
+#include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -54,6 +59,58 @@ auto with_file_name(const std::string &path, const Work &work) {
         const std::string name = display_name(path), what = error.what();
         throw Error(what.find(name) == std::string::npos ? name + ": " + what : what);
     }
+}
+
+// The Cryptomattes that headers name (base/matte.h). Not for use outside io/.
+
+// The attributes cryptomatte/.../name.
+std::vector<std::string> matte_names(const Imf::Header &header);
+
+// The header with the attributes cryptomatte/... of all parts, because mattes may lie in their own parts.
+Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header header);
+
+// Sets the kinds of channels (base/channel_kind.h) by their names and by the mattes that the header names.
+void find_kinds_by(const Imf::Header &header, std::span<Channel> channels);
+void find_kinds_by(const Imf::Header &header, std::vector<FileChannel> &channels);
+
+// Files keep the names of their channels. If the code knows a channel by another name (base/channel_kind.h: red is R),
+// an attribute of the header in memory records its name in files. The attribute is never written; in files the channels
+// have their own names. Not for use outside io/ and python/.
+
+inline constexpr const char *kept_names_attribute = "sparselens:channelNames";
+
+using KeptNames = std::map<std::string, std::string>; // R: red
+
+void set_kept_names(Imf::Header &header, const KeptNames &names);
+
+// Gives channels the names by which the code knows them, and records their original names in the header.
+void name_colours(std::span<Channel> channels, Imf::Header &header);
+
+// The channels by their names in a file with this metadata. All names are different.
+std::vector<Channel> by_kept_names(std::span<const Channel> channels, const Imf::Header &metadata);
+
+} // namespace sparselens
+
+#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR >= 4
+#include <ImfContextInit.h>
+#endif
+
+namespace sparselens {
+
+// Opens an EXR file in a stream without output: OpenEXR 3.4 otherwise prints lines about damaged files to stderr in
+// addition to throwing. Throws what OpenEXR throws.
+inline Imf::MultiPartInputFile open_exr(Imf::IStream &stream) {
+#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR >= 4
+    // As lenient as when only a stream is passed.
+    return Imf::MultiPartInputFile(
+        stream.fileName(), Imf::ContextInitializer()
+                               .setErrorHandler([](exr_const_context_t, exr_result_t, const char *) {})
+                               .silentHeaderParse(true)
+                               .strictHeaderValidation(false)
+                               .setInputStream(&stream));
+#else
+    return Imf::MultiPartInputFile(stream);
+#endif
 }
 
 } // namespace sparselens

@@ -6,7 +6,7 @@
 #include "../../deep/ldi.h"
 #include "../../deep/packed_rows.h"
 #include "compression.h"
-#include "picture_choice.h"
+#include "exr_parts.h"
 
 #include <ImfHeader.h>
 
@@ -33,8 +33,8 @@ struct LdiFile {
 // - every other part is an object, and the picture has the samples of all of them (see deep_merge());
 // - but if exactly one part has the name of a beauty (exr_parts.h), that part is the whole picture, and parts that are
 //   not layers of it are left out.
-// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the
-// choice names a layer, only its channels are read, and those that belong to no picture (exr_beauty.h). Throws
+// If no part has a channel R, G or B, a layer with the name of a beauty (exr_channels.h) becomes R, G, B and A. If the
+// choice names a layer, only its channels are read, and those that belong to no picture (exr_channels.h). Throws
 // UsageError if one part holds several beauties and the choice names none. A missing A is made from AR, AG and AB. Back
 // depths are in the channel NAMEBack beside the depth channel. Samples are returned as they stand in the file (see
 // tidy); a flat picture has one per pixel.

@@ -6,7 +6,7 @@
 
 #include "../../base/image.h"
 #include "compression.h"
-#include "picture_choice.h"
+#include "exr_parts.h"
 
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
@@ -32,7 +32,7 @@ struct FlatFile {
 // name of the part, or else the first part), then all other parts with the same display window. The data window
 // contains those of all parts; outside its own, a part is 0, which as a depth means nothing. Warnings name parts that
 // are not used. A channel whose name is taken becomes a channel of the layer of its part. If nothing is named R, G or
-// B, the layer with the name of a beauty is read as the beauty (exr_beauty.h: ViewLayer.Combined, Ci). Throws
+// B, the layer with the name of a beauty is read as the beauty (exr_channels.h: ViewLayer.Combined, Ci). Throws
 // UsageError if there are several and the choice names none. A missing A is made from AR, AG and AB (see
 // channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});

@@ -7,7 +7,7 @@
 // default view. A layer whose name contains no view belongs to all views that lack a layer of that name.
 #pragma once
 
-#include "base/image.h"
+#include "../../base/image.h"
 
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
@@ -20,7 +20,7 @@ namespace sparselens {
 // The name of the part without its view, which the file format includes: "diffuse" of "diffuse.left".
 std::string layer_of(const Imf::Header &header);
 
-// Whether the part has one of the names of a beauty (exr_beauty.h), or no name.
+// Whether the part has one of the names of a beauty (exr_channels.h), or no name.
 bool is_beauty(const Imf::Header &header);
 
 // The views of a part, the default first. Empty if the part names none.
@@ -44,7 +44,7 @@ struct FileChannel {
     std::string in_file; // R, G or B if they are made from luminance and chroma
     Channel channel;
     std::string kept =
-        {}; // the name that it keeps in files if the picture knows it by another (kept_names.h)
+        {}; // the name that it keeps in files if the picture knows it by another (exr_common.h)
 };
 
 // Gives the channel another name. If the new name is in a layer, the name that it keeps in files moves to that layer.
@@ -62,5 +62,29 @@ void colours_first(std::vector<FileChannel> &channels);
 
 // The header for a picture of that view alone.
 Imf::Header header_of_view(const Imf::Header &header, const std::string &view);
+
+// Chooses the picture to read if a file holds several: views of a stereo file ("left", "right", ...), and layers that
+// are pictures, such as Blender's view layers (exr_channels.h). Also chooses the depth channel, and says whether colours
+// are premultiplied.
+struct PictureChoice {
+    std::string stereo_view = {}; // empty: the file's first
+    std::string layer = {};       // empty: the only one
+    std::string depth = {};       // a channel of any layer; empty: found by its name (exr_channels.h)
+    // A flat file with the same display window, whose depth replaces that of the picture; `depth` then names one of its
+    // channels.
+    std::string depth_file = {};
+    bool unpremultiplied = false; // colours are not yet multiplied by their coverage; the reader does it
+
+    // The depth channel of the picture in memory.
+    std::string depth_in_memory() const { return depth_file.empty() ? depth : "Z"; }
+};
+
+// The views of all parts, the default view first; empty if the file names none. Reads only the header. Throws Error if
+// the file cannot be read.
+std::vector<std::string> stereo_views(const std::string &path);
+
+// The layers of a view that are pictures; empty if there are none. Reads only the header. Throws Error like
+// stereo_views().
+std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view = {});
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
 // Colours stored as luminance and chroma: the channels Y, RY and BY, of which the last two have a quarter of the pixels
 // ("Technical Introduction to OpenEXR", luminance/chroma images). OpenEXR's own reader for them is not used, because it
-// takes no error handler (open_exr.h) and reads only the first part. Not for use outside io/.
+// takes no error handler (exr_common.h) and reads only the first part. Not for use outside io/.
 #pragma once
 
 #include "base/grid.h"

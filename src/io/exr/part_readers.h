@@ -2,9 +2,9 @@
 // and copies the rows of one file on one thread, and only decompresses them on several.
 #pragma once
 
-#include "base/in_order.h"
+#include "base/parallel.h"
+#include "io/exr/exr_common.h"
 #include "io/files/file_stream.h"
-#include "io/files/open_exr.h"
 
 #include <ImfDeepScanLineInputPart.h>
 #include <ImfMultiPartInputFile.h>

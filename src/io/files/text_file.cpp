@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
 
 namespace sparselens {
@@ -68,5 +71,20 @@ std::string shown_in_message(const Json &value) {
     const std::string text = value.dump(-1, ' ', true); // ASCII only, because any byte may be the last
     return text.size() <= longest_shown ? text : text.substr(0, longest_shown) + "...";
 }
+
+MemoryFile::MemoryFile(std::string_view contents) : descriptor_(::memfd_create("sparselens", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) fail_of_system("a file in memory", "cannot make");
+    while (!contents.empty()) {
+        const ssize_t written = ::write(descriptor_, contents.data(), contents.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) {
+            ::close(descriptor_);
+            fail_of_system("a file in memory", "cannot write");
+        }
+        contents.remove_prefix(std::size_t(written));
+    }
+}
+
+MemoryFile::~MemoryFile() { ::close(descriptor_); }
 
 } // namespace sparselens

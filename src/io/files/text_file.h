@@ -25,4 +25,20 @@ nlohmann::json read_json_file(const std::string &path);
 // A value as an error message shows it: a long one is cut off.
 std::string shown_in_message(const nlohmann::json &value);
 
+// A file in memory for code that writes or reads files only by name. It is in no folder, so no other user can open it,
+// put a link in its place, or find it after a crash.
+class MemoryFile {
+public:
+    explicit MemoryFile(std::string_view contents = {}); // throws Error if the system provides none
+    ~MemoryFile();                                       // removes the file, too
+    MemoryFile(const MemoryFile &) = delete;
+    MemoryFile &operator=(const MemoryFile &) = delete;
+
+    // A path that opens the file, in this process only.
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
 } // namespace sparselens

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../../base/image.h"
-#include "../../view/camera.h"
+#include "../../view/view.h"
 
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>

@@ -1,8 +1,8 @@
 #include "io/usd/usd_views.h"
 
 #include "base/error.h"
-#include "lens/f_number.h"
-#include "plan/plan_cameras.h"
+#include "lens/thin_lens.h"
+#include "plan/plan.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 
 #include "base/image.h"
 #include "lens/thin_lens.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>

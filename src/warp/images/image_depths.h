@@ -2,9 +2,9 @@
 // neighbours confirm them, and they are continued to pixels of the same surface whose patches give none.
 #pragma once
 
-#include "warp/images/disagreement.h"
 #include "warp/images/image_sweep.h"
-#include "warp/images/neighbours.h"
+#include "warp/images/matched_view.h"
+#include "warp/images/patch_comparison.h"
 
 #include <cstdint>
 #include <functional>
@@ -26,5 +26,15 @@ using ShowImages = std::function<void(const Imath::Box2i &block, const ImageDept
 // parallel, once what lies around the block is known, too.
 void find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
                        const std::vector<std::size_t> &blocks, const ShowImages &show);
+
+// Gives the samples of an LDI that show mirrors and glass the depth of what they show, and averages the views at that
+// depth.
+
+// `ldi` is made of `views`, the centre view first; where the centre view shows one sample, it is the front sample of
+// the LDI's pixel. `scale`: R F. `across`: pixels, across and down, that become one pixel of the picture. `differ`, by
+// blocks of the LDI's data window: where views differ by more than noise if the picture lies on the
+// surface. Ldi::optical stays empty if no image is found.
+void show_images(std::span<const PlacedView> views, double scale, int across,
+                 std::span<const Disagreement> differ, Ldi &ldi);
 
 } // namespace sparselens

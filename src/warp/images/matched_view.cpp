@@ -1,8 +1,8 @@
 #include "warp/images/matched_view.h"
 
 #include "base/subpixels.h"
-#include "kernels/photo_rules.h"
-#include "lens/perceptive_depth.h"
+#include "kernels/warp_rules.h"
+#include "lens/thin_lens.h"
 
 #include <algorithm>
 #include <cmath>

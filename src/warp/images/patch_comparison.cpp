@@ -1,6 +1,6 @@
 #include "warp/images/patch_comparison.h"
 
-#include "base/float4.h"
+#include "base/numbers.h"
 #include "warp/tuning.h"
 
 #include <algorithm>

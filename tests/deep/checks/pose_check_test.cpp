@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/numbers.h"
 #include "deep/checks/pose_check.h"
 #include "support/views.h"
 

@@ -1,4 +1,4 @@
-#include "dof/facets/links.h"
+#include "dof/facets/facets.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Joined samples hide a lamp as the single samples do: everything that these hide, and hardly more.
-#include "base/random.h"
-#include "dof/footprints/joined_footprints.h"
+#include "base/numbers.h"
+#include "dof/footprints/footprint.h"
 #include "dof/lens/blocked_fixture.h"
-#include "dof/lens/shadow_edges.h"
+#include "dof/lens/shadow_search.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/sample_colours.h"
 
 namespace sparselens {
 

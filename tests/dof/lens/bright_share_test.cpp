@@ -1,7 +1,6 @@
 // The share of the surroundings that is as bright as a sample, compared with a count, and its effect on lamps.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "dof/lens/blocked_fixture.h"
-#include "dof/lens/bright_share.h"
 #include "dof/lens/highlights.h"
 #include "support/lens_ldi.h"
 

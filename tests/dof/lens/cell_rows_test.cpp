@@ -1,4 +1,4 @@
-#include "dof/lens/cell_rows.h"
+#include "dof/lens/see.h"
 #include "kernels/lens_rules.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Tiles gathered in cells: the interpolation compared with closed forms, pictures compared with lens points at every
 // pixel.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "dof/gather_rows.h"
 #include "dof/lens/cells.h"
 #include "dof/lens/tile_plan.h"
-#include "dof/lens_mattes.h"
+#include "dof/methods.h"
 #include "support/lens_ldi.h"
 #include "support/mattes.h"
 

@@ -1,6 +1,6 @@
 // What hides lamps in a picture of one view, in closed form.
 #include "dof/lens/blocked_fixture.h"
-#include "dof/lens/filler_samples.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/lens_gather.h"
 #include "support/lens_ldi.h"
 

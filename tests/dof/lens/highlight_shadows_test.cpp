@@ -1,10 +1,10 @@
 // The pixels of one lamp share shadows, which equal the shadows for each pixel to within a fiftieth of the disc.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
-#include "dof/lens/shadow_lists.h"
-#include "dof/lens/solid_samples.h"
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/shadow_search.h"
 #include "dof/tuning.h"
 #include "support/lens_ldi.h"
 

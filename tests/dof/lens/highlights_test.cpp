@@ -1,7 +1,6 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_gather.h"
-#include "lens/lamp.h"
 #include "lens/lamp_spread.h"
 #include "lens/psf.h"
 #include "support/lens_ldi.h"

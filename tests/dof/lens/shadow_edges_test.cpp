@@ -1,6 +1,6 @@
 // Shadows of a square pixel, by hand; and shadows of a group, computed for its middle lamp, compared with those of each
 // lamp.
-#include "dof/lens/shadow_edges.h"
+#include "dof/lens/shadow_search.h"
 
 #include <gtest/gtest.h>
 

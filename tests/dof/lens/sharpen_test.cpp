@@ -1,8 +1,8 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/lens/sharpen.h"
+#include "lens/focus_field.h"
 #include "lens/lens_looks.h"
-#include "lens/picture_frame.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

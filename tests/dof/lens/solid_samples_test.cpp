@@ -1,6 +1,6 @@
 // Solids behind samples as a lens point sees them: closed forms.
+#include "dof/lens/sample_blocks.h"
 #include "dof/lens/see_fixture.h"
-#include "dof/lens/solid_samples.h"
 
 #include <gtest/gtest.h>
 

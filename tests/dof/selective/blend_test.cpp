@@ -1,4 +1,4 @@
-#include "dof/selective/blend.h"
+#include "dof/selective/splats.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Missing, wrong or contradictory attributes of a header give an error that names the option to use.
 #include "base/error.h"
+#include "io/camera/camera_header.h"
 #include "io/camera/camera_headers.h"
-#include "io/camera/camera_read.h"
-#include "io/camera/camera_write.h"
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 

@@ -1,7 +1,6 @@
 // Headers of each renderer give the camera that rendered.
+#include "io/camera/camera_header.h"
 #include "io/camera/camera_headers.h"
-#include "io/camera/camera_read.h"
-#include "io/camera/camera_write.h"
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 

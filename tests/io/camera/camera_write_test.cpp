@@ -1,5 +1,4 @@
-#include "io/camera/camera_read.h"
-#include "io/camera/camera_write.h"
+#include "io/camera/camera_header.h"
 
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>

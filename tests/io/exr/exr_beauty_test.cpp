@@ -1,6 +1,6 @@
 // The beauty in a layer, as Blender and other renderers write it.
 #include "base/error.h"
-#include "io/exr/exr_beauty.h"
+#include "io/exr/exr_channels.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/open_view.h"

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "io/exr/exr_flat.h"
-#include "io/exr/exr_header_check.h"
+#include "io/exr/exr_header.h"
 #include "support/scratch_folder.h"
 
 #include <ImfStringAttribute.h>

@@ -1,7 +1,7 @@
 #include "base/error.h"
+#include "io/exr/exr_common.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "io/exr/exr_mattes.h"
 #include "io/open_view.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"

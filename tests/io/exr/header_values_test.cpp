@@ -1,4 +1,4 @@
-#include "io/exr/header_values.h"
+#include "io/exr/exr_header.h"
 
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>

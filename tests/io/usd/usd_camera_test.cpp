@@ -1,9 +1,9 @@
 #include "base/error.h"
 #include "io/usd/usd_camera.h"
 #include "io/usd/usd_transform.h"
-#include "lens/f_number.h"
+#include "lens/thin_lens.h"
 #include "support/scratch_folder.h"
-#include "view/projection.h"
+#include "view/lens_views.h"
 #include "view/resolve_lens.h"
 
 #include <fmt/format.h>

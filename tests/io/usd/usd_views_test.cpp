@@ -3,10 +3,9 @@
 #include "chain/usd_shot.h"
 #include "io/usd/usd_camera.h"
 #include "io/usd/usd_views.h"
-#include "lens/f_number.h"
+#include "lens/thin_lens.h"
 #include "support/scratch_folder.h"
 #include "view/lens_views.h"
-#include "view/projection.h"
 #include "view/resolve_lens.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "warp/lamps/compact_lamps.h"
+#include "warp/lamps/lamp_light.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The light of small lamps in a picture, from views whose pixels show it exactly.
-#include "base/random.h"
+#include "base/numbers.h"
 #include "dof/lens/lens_gather.h"
 #include "support/views.h"
 #include "warp/lamps/lamp_light.h"

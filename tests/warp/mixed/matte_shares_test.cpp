@@ -1,6 +1,6 @@
 // Coverages of Cryptomattes when pixels become two samples, when views are averaged, and through the lens.
 #include "deep/flatten.h"
-#include "dof/lens_mattes.h"
+#include "dof/methods.h"
 #include "support/mattes.h"
 #include "warp/silhouettes.h"
 #include "warp/warp_fixture.h"

@@ -1,5 +1,5 @@
 #include "support/views.h"
-#include "warp/mixed/other_views.h"
+#include "warp/mixed/wisps.h"
 
 #include <gtest/gtest.h>
 

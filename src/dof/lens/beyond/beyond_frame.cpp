@@ -1,16 +1,39 @@
 #include "dof/lens/beyond/beyond_frame.h"
 
 #include "base/grid.h"
+#include "base/parallel.h"
+#include "deep/ldi.h"
+#include "deep/packed_rows.h"
 #include "dof/lens/beyond/border.h"
-#include "dof/lens/beyond/picked.h"
+#include "dof/lens/sample_blocks.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace sparselens {
+
+// Samples picked from an LDI, and how much of their light is left.
+struct Picked {
+    std::vector<std::uint64_t> begin{0};                 // of each pixel, as Ldi::begin
+    std::vector<std::uint32_t> from;                     // [new sample]
+    std::vector<std::pair<std::uint32_t, float>> dimmed; // new samples
+
+    void keep(std::uint32_t sample, float light = 1) {
+        if (light < 1) dimmed.push_back({std::uint32_t(from.size()), light});
+        from.push_back(sample);
+    }
+    void end_pixel() { begin.push_back(from.size()); }
+    // Keeps all samples of `count` consecutive pixels.
+    void keep_pixels(const Ldi &of, std::size_t first, std::size_t count);
+};
+
+// Puts the picked samples of `of` into `to`, which may be the same LDI. The windows of `to` do not change.
+void pick(const Ldi &of, Picked by, Ldi &to);
 
 namespace {
 
@@ -181,6 +204,36 @@ BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks
     Continuation(ldi, lens, looks, frame, known, reach, across, views_radius).run(ldi, made);
     made.ldi = std::move(ldi);
     return made;
+}
+
+namespace {
+
+std::vector<float> picked(const std::vector<float> &of, const std::vector<std::uint32_t> &from) {
+    std::vector<float> values(of.empty() ? 0 : from.size());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = of[from[i]];
+    return values;
+}
+
+} // namespace
+
+void Picked::keep_pixels(const Ldi &of, std::size_t first, std::size_t count) {
+    const std::uint64_t begin_of = of.begin[first], end_of = of.begin[first + count];
+    const std::uint64_t before = from.size() - begin_of; // may wrap round
+    for (std::uint64_t i = begin_of; i < end_of; ++i) from.push_back(std::uint32_t(i));
+    for (std::size_t pixel = first; pixel < first + count; ++pixel)
+        begin.push_back(before + of.begin[pixel + 1]);
+}
+
+void pick(const Ldi &of, Picked by, Ldi &to) {
+    const std::vector<std::size_t> light = light_channels(of).all;
+    to.channels = of.channels;
+    to.values.resize(of.values.size());
+    const std::vector<const std::vector<float> *> from = arrays_of(of);
+    const std::vector<std::vector<float> *> into = arrays_of(to);
+    parallel_for(from.size(), [&](std::size_t k) { *into[k] = picked(*from[k], by.from); });
+    for (const auto &[sample, left] : by.dimmed)
+        for (const std::size_t k : light) to.values[k][sample] *= left;
+    to.begin = std::move(by.begin);
 }
 
 } // namespace sparselens

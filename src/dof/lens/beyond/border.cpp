@@ -1,10 +1,10 @@
 #include "dof/lens/beyond/border.h"
 
-#include "base/coverage.h"
+#include "base/light.h"
 #include "deep/build.h"
-#include "dof/lens/sample_colours.h"
+#include "dof/lens/sample_blocks.h"
 #include "dof/tuning.h"
-#include "lens/lamp.h"
+#include "lens/lamp_spread.h"
 
 #include <algorithm>
 #include <cmath>

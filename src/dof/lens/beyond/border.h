@@ -5,7 +5,7 @@
 #include "deep/ldi.h"
 #include "kernels/surface.h"
 #include "lens/lens_looks.h"
-#include "lens/light_reach.h"
+#include "lens/psf.h"
 #include "lens/thin_lens.h"
 
 #include <Imath/ImathBox.h>

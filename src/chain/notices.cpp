@@ -1,0 +1,204 @@
+#include "chain/notices.h"
+
+#include "base/grid.h"
+#include "dof/border_reach.h"
+#include "io/files/file_stream.h"
+#include "view/flat_pixels.h"
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sparselens {
+
+namespace {
+
+using enum NoticeLevel;
+
+struct Words {
+    NoticeKind kind;
+    NoticeLevel level;
+    const char *text;
+};
+
+constexpr std::array table{
+    Words{NoticeKind::reading, note, "reading {file}"},
+    Words{NoticeKind::file_note, note, "{file}: {0}"},
+    Words{NoticeKind::file_warning, warning, "{file}: {0}"},
+    Words{NoticeKind::coverage_by_colour, note, "{file}: each colour has its own coverage (AR, AG, AB)"},
+    Words{NoticeKind::speckles, once,
+          "{file}: {0}; if it is smoke or fog, render it by itself (docs/renderers.md, \"Smoke and fog\"; in "
+          "Blender, --slices 8)"},
+    Words{NoticeKind::clamped, warning, "{file}: {0} values beyond the range of half are clamped to 65504"},
+    Words{NoticeKind::camera, note, "{file}: {0}"},
+    Words{NoticeKind::camera_unsure, note, "{file}: {0}; `{parameter}` settles it"},
+    Words{NoticeKind::colour_space, note, "{file}: colour space {0}"},
+    Words{
+        NoticeKind::unnamed_chromaticities, warning,
+        "{file}: its chromaticities are of no colour space that the colour configuration names; its colours "
+        "are taken for scene-linear: give `{parameter}`"},
+    Words{NoticeKind::unnamed_space, warning,
+          "{file}: its {0} is of no colour space that the colour configuration names; its colours are taken "
+          "for scene-linear: give `{parameter}`"},
+    Words{NoticeKind::no_colorconfig, warning,
+          "{0}; EXR is taken as linear: mend $OCIO, or name a configuration by `{parameter}`"},
+    Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
+    Words{NoticeKind::picture_warning, warning, "{0}"},
+    Words{NoticeKind::coverage_differs, warning,
+          "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same "
+          "objects and pixel filter. What it alone covers lies at infinity"},
+    Words{NoticeKind::without_colours, warning,
+          "{file}: has no colours for {1} pixels of {0}, which are left out; render as much overscan as that "
+          "has"},
+    Words{NoticeKind::light_at_infinity, note,
+          "{file}: {0} pixels show light or coverage at infinity, where no sample is"},
+    Words{NoticeKind::regions, note,
+          "the regions are those of a lens of radius {0:g}, focal length {1:g} pixels, focused at {2:g}"},
+    Words{NoticeKind::framing, note,
+          "{file}: optical axis {0:g},{1:g} pixels from that of the centre view, focal length {2:g} times "
+          "that of the centre view, {3:g} scene units in front of it"},
+    Words{NoticeKind::warped, note, "{0} views, {1} samples in {2} pixels"},
+    Words{NoticeKind::clustered, note, "{0} samples to {1}, CoC changed by at most {2:.6f} px"},
+    Words{NoticeKind::clustered_blindly, note,
+          "{0} samples to {1}, by inverse depth alone, because the lens is unknown"},
+    Words{NoticeKind::focused, note, "the focus distance is {0:g}, the depth of pixel {1:g},{2:g}"},
+    Words{NoticeKind::wide_lens, warning,
+          "the aperture is larger than the one the views were rendered for; what it sees beyond them is "
+          "unknown"},
+    Words{NoticeKind::round_aperture, warning, "method {0} ignores the aperture's shape; using a disc"},
+    Words{NoticeKind::overscan, note,
+          "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there"},
+    Words{
+        NoticeKind::missing_overscan, once,
+        "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there; discs of lights "
+        "outside the frame are missing, so render more overscan"},
+    Words{NoticeKind::on_cpu, note, "device: the CPU"},
+    Words{NoticeKind::on_device, note, "device: {0}"},
+    Words{NoticeKind::no_vulkan, note, "no device by Vulkan: {0}"},
+    Words{NoticeKind::gather_unusable, warning, "{0}; the CPU gathers"},
+    Words{NoticeKind::gather_failed, warning, "{0}; the CPU gathers what it has not"},
+    Words{NoticeKind::gathered_tiles, note, "tiles gathered by the device: {0} of {1}"},
+    Words{NoticeKind::left_tiles, note, "tiles gathered by the CPU: {0} ({1})"},
+    Words{NoticeKind::warp_unusable, warning, "{0}; the CPU warps"},
+    Words{NoticeKind::warp_failed, warning, "{0}; the CPU warps what it has not"},
+    Words{NoticeKind::warped_rows, note, "rows warped by the device: {0} of {1}"},
+    Words{NoticeKind::left_rows, note, "rows warped by the CPU: {0} ({1})"},
+    Words{NoticeKind::uploaded, note, "uploaded to the device: {0:.1f} MB"},
+};
+
+constexpr bool in_order() {
+    for (std::size_t i = 0; i < table.size(); ++i)
+        if (table[i].kind != NoticeKind(i)) return false;
+    return table.size() == std::size_t(NoticeKind::uploaded) + 1;
+}
+static_assert(in_order());
+
+const Words &words_for(const Notice &notice) { return table[std::size_t(notice.kind)]; }
+
+} // namespace
+
+NoticeLevel level_of(const Notice &notice) { return words_for(notice).level; }
+
+// The texts number their values, because newer versions of fmt do not mix names with `{}`.
+std::string words_of(const Notice &notice) {
+    fmt::dynamic_format_arg_store<fmt::format_context> values;
+    for (const Notice::Value &value : notice.values)
+        std::visit([&](const auto &one) { values.push_back(one); }, value);
+    values.push_back(fmt::arg("file", notice.file));
+    values.push_back(fmt::arg("parameter", notice.parameter));
+    return fmt::vformat(words_for(notice).text, values);
+}
+
+namespace {
+
+const char *fate_of(const Channel &channel) {
+    if (is_in_matte(channel)) return "Cryptomatte: ids are copied, their coverage goes through the lens";
+    if (holds_ids(channel)) return "ids: those of the front sample, never averaged";
+    if (is_light(channel)) return "light: goes through the lens";
+    return "data: averaged as light is, but no highlight and no colour";
+}
+
+struct Layer {
+    std::string name;
+    const char *fate;
+    bool operator==(const Layer &) const = default;
+};
+
+Layer layer_of(const Channel &channel) {
+    const std::size_t dot = channel.name.rfind('.');
+    const bool plain = dot == std::string::npos;
+    const std::string name = is_in_matte(channel) ? channel.matte : channel.name.substr(0, plain ? 0 : dot);
+    return {plain && !is_light(channel) ? channel.name : name, fate_of(channel)};
+}
+
+} // namespace
+
+std::vector<std::string> layer_notes(std::span<const Channel> channels) {
+    std::vector<Layer> layers;
+    for (const Channel &channel : channels)
+        if (Layer layer = layer_of(channel); std::ranges::find(layers, layer) == layers.end())
+            layers.push_back(std::move(layer));
+    std::vector<std::string> notes;
+    for (const Layer &layer : layers)
+        notes.push_back(
+            fmt::format("layer {}: {}", layer.name.empty() ? "of the picture" : layer.name, layer.fate));
+    return notes;
+}
+
+void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
+                  const std::vector<std::string> &warnings) {
+    for (const std::string &note : notes) tell({NoticeKind::file_note, display_name(path), {note}});
+    for (const std::string &warning : warnings)
+        tell({NoticeKind::file_warning, display_name(path), {warning}});
+}
+
+void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels) {
+    for (const std::string &note : layer_notes(channels))
+        tell({NoticeKind::file_note, display_name(path), {note}});
+}
+
+void tell_samples(const Tell &tell, const OpenedLdi &in) {
+    tell_reading(tell, in.name, in.notes, in.warnings);
+    tell_layers(tell, in.name, in.ldi.channels);
+    tell_speckles(tell, in.name, in.speckles);
+    if (in.coverage_by_colour) tell({NoticeKind::coverage_by_colour, in.name});
+    tell_invalid_values(tell, in.name, in.bad);
+}
+
+void tell_speckles(const Tell &tell, const std::string &path, std::size_t speckles) {
+    if (speckles > 0) tell({NoticeKind::speckles, display_name(path), {speckle_warning(speckles)}});
+}
+
+void tell_camera(const Tell &tell, const std::string &path, const Camera &camera) {
+    for (const std::string &found : camera.found) tell({NoticeKind::camera, display_name(path), {found}});
+    for (const auto &[parameter, reason] : camera.unsure)
+        tell({NoticeKind::camera_unsure, display_name(path), {reason}, parameter});
+}
+
+void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings) {
+    for (const std::string &warning : warnings)
+        tell({.kind = NoticeKind::picture_warning, .values = {warning}});
+}
+
+void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                       int across, const LensLooks &looks) {
+    const BorderReach reach = border_reach(ldi, lens, looks);
+    if (reach.needed == 0) return;
+    const bool can_be_rendered = reach.needed <= ldi.windows.display_width(); // else depths or lens are wrong
+    const bool missing = reach.too_little() && reach.bright && can_be_rendered;
+    tell({missing ? NoticeKind::missing_overscan : NoticeKind::overscan,
+          display_name(path),
+          {double(pieces_of(reach.needed, across)), double(reach.rendered / across)}});
+}
+
+void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped) {
+    if (clamped > 0) tell({NoticeKind::clamped, display_name(path), {clamped}});
+}
+
+void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad) {
+    if (bad.any()) tell({NoticeKind::file_warning, display_name(path), {bad.text()}});
+}
+
+} // namespace sparselens
