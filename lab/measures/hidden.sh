@@ -1,7 +1,7 @@
-# The worth of hidden surfaces: share/python/hidden.py on three scenes, and on yard if it is there. 15 minutes.
+# The worth of hidden surfaces: lab/hidden.py on three scenes, and on yard if it is there. 15 minutes.
 . "$(dirname "$0")/common.inc" "$1"
 scenes=(fence grass mist)
 [ ! -e "$shared/views/yard" ] || scenes+=("$shared/views/yard")
 echo '```'
-PYTHONPATH=$bin/../python python3 "$(dirname "$0")/../../share/python/hidden.py" "${scenes[@]}" --bin "$bin" -o .
+PYTHONPATH=$bin/../python python3 "$(dirname "$0")/../hidden.py" "${scenes[@]}" --bin "$bin" -o .
 echo '```'

@@ -1,4 +1,4 @@
-"""share/python/hidden.py on a small picture: every row exists, and known surfaces beat guessed ones."""
+"""lab/hidden.py on a small picture: every row exists, and known surfaces beat guessed ones."""
 import pathlib
 import shutil
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 from conftest import BIN
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "share/python/hidden.py"
+SCRIPT = pathlib.Path(__file__).parents[2] / "lab/hidden.py"
 ROWS = ["visible surfaces alone, holes left dark", "... divided by what is known",
         "... the nearest background repeated behind", "... the background blurred inwards",
         "... dof-gather's own fillers", "depth peeling, 4 layers", "five views, ldi-warp"]
