@@ -57,7 +57,6 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
 
 // The light of a flat picture that belongs to another one: a beauty for deep samples, or a denoised view.
 struct LdiFromViews; // chain/make_ldi.h
-struct PackedView;   // deep/view_samples.h
 struct WarpOptions;  // warp/warp.h
 
 struct FlatLight {

@@ -22,6 +22,34 @@ namespace sparselens {
 
 namespace {
 
+// A view, flat or deep, ready for the warp.
+struct OpenedPackedView : OpenedFile {
+    PackedView view; // at the origin
+};
+
+OpenedPackedView packed(OpenedView opened) {
+    return {std::move(static_cast<OpenedFile &>(opened)), PackedView(std::move(opened.view))};
+}
+
+// Throws Error if the picture was made from several views, and so is not a view of one camera.
+OpenedPackedView packed(OpenedLdi opened) {
+    Ldi &ldi = opened.ldi;
+    const auto any = [](const std::vector<float> &offsets) {
+        return std::ranges::any_of(offsets, [](float offset) { return offset != 0; });
+    };
+    if (any(ldi.dx) || any(ldi.dy) || !ldi.optical.empty() || !ldi.solid.empty())
+        throw Error(opened.name + ": is an LDI, whose samples come from several views: give the views "
+                                  "that it was made of, or merge LDIs with ldi-cluster");
+    return {std::move(static_cast<OpenedFile &>(opened)), PackedView(opened.name, std::move(ldi))};
+}
+
+// Ray lengths need the frustum; if the file lacks it, it is taken from `otherwise`.
+OpenedPackedView open_packed(const std::string &path, const OpenOptions &options,
+                             const Camera &otherwise = {}) {
+    return is_deep_alone(path) ? packed(open_ldi(path, options))
+                               : packed(open_view(path, options, otherwise));
+}
+
 // The views on the lens, and notes about their files.
 struct PlacedViews {
     std::vector<PackedView> views; // the centre view first
@@ -82,7 +110,7 @@ PlacedViews open_views(const LdiFromViews &request) {
     const std::vector<DepthOptions> depths =
         depths_of_pictures(request.depth, request.depth_files, paths.size());
     const std::vector<std::optional<FilmCamera>> films = films_of(request, paths);
-    OpenedPackedView centre = open_packed_view(paths[0], {request.lens, depths[0], films[0]});
+    OpenedPackedView centre = open_packed(paths[0], {request.lens, depths[0], films[0]});
     if (const auto warning = stated_warning(films[0], request.lens)) centre.warnings.push_back(*warning);
     const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
@@ -92,7 +120,7 @@ PlacedViews open_views(const LdiFromViews &request) {
     in_order(
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
         [&](std::size_t n) {
-            return open_packed_view(paths[n + 1], {request.lens, depths[n + 1], films[n + 1]}, camera);
+            return open_packed(paths[n + 1], {request.lens, depths[n + 1], films[n + 1]}, camera);
         },
         [&](std::size_t n, OpenedPackedView next) {
             stated.push_back({paths[n + 1], with_subpixels(next.camera, request), positions[n + 1]});
@@ -105,7 +133,7 @@ PlacedViews open_views(const LdiFromViews &request) {
 
 // Copies the view.
 OpenedPackedView opened(const ViewInMemory &view) {
-    return view.flat ? ready_packed_view(OpenedView(*view.flat)) : ready_packed_view(OpenedLdi(*view.deep));
+    return view.flat ? packed(OpenedView(*view.flat)) : packed(OpenedLdi(*view.deep));
 }
 
 PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &request) {

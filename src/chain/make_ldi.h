@@ -8,7 +8,7 @@
 #include "deep/cluster.h"
 #include "deep/view_samples.h"
 #include "denoised/denoised_views.h"
-#include "io/open_packed_view.h"
+#include "io/open_ldi.h"
 #include "warp/warp.h"
 
 #include <optional>

@@ -36,13 +36,12 @@ bool has_coverage_by_colour(const Ldi &ldi) { return by_coverage(ldi).size() > 1
 
 // Returns everything about the file except its packed samples.
 OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions &options) {
-    OpenedLdi opened{.name = display_name(path),
-                     .ldi = std::move(file.ldi),
-                     .header = std::move(file.header),
-                     .camera = {},
-                     .bad = {},
-                     .notes = std::move(file.notes),
-                     .warnings = std::move(file.warnings)};
+    OpenedLdi opened;
+    opened.name = display_name(path);
+    opened.ldi = std::move(file.ldi);
+    opened.header = std::move(file.header);
+    opened.notes = std::move(file.notes);
+    opened.warnings = std::move(file.warnings);
     opened.camera = camera_with_options(
         options.lens, opened_camera(opened.header, opened.name, options.camera, opened.ldi.windows));
     return opened;

@@ -24,22 +24,14 @@ struct FewerSamples {}; // the result of a ReduceSamples
 using SamplesHeld = std::variant<AllSamples, FewerSamples,
                                  PackedRows>; // PackedRows: all samples, packed; `ldi` is then empty
 
-struct OpenedLdi {
-    std::string name; // of the file, for messages
-    Ldi ldi;          // tidy
-    Imf::Header header;
-    Camera camera;             // of the header, overridden by the user's values
-    InvalidValues bad;         // what was repaired
+struct OpenedLdi : OpenedFile {
+    std::string name;          // of the file, for messages
+    Ldi ldi;                   // tidy
     std::size_t invisible = 0; // samples of the file that tidy() removed: they show nothing, or were merged
     std::size_t samples_read = 0; // tidy ones; more than `ldi` has if they were reduced
     SamplesHeld held = AllSamples{};
-    bool deep = true;                          // whether the file is deep; else it is flat with depth
-    DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
-    bool depth_filtered = false;               // of a flat picture: see mixed_pixels.h
-    std::size_t speckles = 0;                  // of a flat picture: see OpenedView
-    bool unpremultiplied = false;              // in a flat picture: its colours seem to be so
-    bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
-    std::vector<std::string> notes, warnings;  // see LdiFile
+    bool deep = true;                // whether the file is deep; else it is flat with depth
+    bool coverage_by_colour = false; // AR, AG and AB differ in the file (deep/channel_alpha.h)
 
     // Throws UsageError if a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, ldi.windows); }

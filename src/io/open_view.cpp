@@ -39,13 +39,13 @@ OpenedView open_view(const std::string &path, const OpenOptions &options, const 
 
 OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options,
                       const Camera &otherwise) {
-    OpenedView opened{.view = {display_name(path), std::move(file.image), {}},
-                      .header = std::move(file.header),
-                      .camera = {},
-                      .bad = {},
-                      .notes = std::move(file.notes),
-                      .warnings = std::move(file.warnings)};
+    OpenedView opened;
+    opened.header = std::move(file.header);
+    opened.notes = std::move(file.notes);
+    opened.warnings = std::move(file.warnings);
     View &view = opened.view;
+    view.name = display_name(path);
+    view.image = std::move(file.image);
     const DepthChannel depth =
         find_depth_channel(view.image.channels, options.depth.picture.depth_in_memory(), path);
     if (options.depth.picture.depth_file.empty()) opened.notes.push_back("depth: " + depth.name);

@@ -57,16 +57,21 @@ inline Camera opened_camera(const Imf::Header &header, const std::string &name,
     return stated ? with_film(*stated, read_camera(header), windows) : read_perspective_camera(header, name);
 }
 
-struct OpenedView {
-    View view; // at the origin: the caller knows its position
+// What a file says beside its pixels, and what was done to them.
+struct OpenedFile {
     Imf::Header header;
-    Camera camera;                                      // of the header, overridden by the user's values
-    InvalidValues bad;                                  // what was repaired
-    DepthMeaning depth = DepthMeaning::planar;          // how the file's depths were read
-    bool depth_filtered = false;                        // see SettledEdges
-    std::size_t speckles = 0;                           // depths of speckles replaced (view/flat_pixels.h)
-    bool unpremultiplied = false;                       // whether its colours seem to be so
-    std::vector<std::string> notes = {}, warnings = {}; // see FlatFile
+    Camera camera;                             // of the header, overridden by the user's values
+    InvalidValues bad;                         // what was repaired
+    DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
+    std::vector<std::string> notes, warnings;  // see FlatFile, LdiFile
+    // For flat pictures alone:
+    bool depth_filtered = false;  // see SettledEdges
+    std::size_t speckles = 0;     // depths of speckles replaced (view/flat_pixels.h)
+    bool unpremultiplied = false; // whether its colours seem to be so
+};
+
+struct OpenedView : OpenedFile {
+    View view; // at the origin: the caller knows its position
 
     // Throws UsageError if a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, view.image.windows); }
