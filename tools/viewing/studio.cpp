@@ -18,34 +18,15 @@ struct Outdated {};
 
 struct Studio::Job {
     std::string page;
-    Work work;
     std::atomic<bool> outdated = false;
-    bool done = false;
-    std::string answer = {};
-    std::exception_ptr failure = {};
     State state = {};
 };
 
-Studio::Studio() : worker_([this] { run(); }) {}
-
-Studio::~Studio() {
-    {
-        const std::lock_guard lock(mutex_);
-        closing_ = true;
-        if (at_work_) at_work_->outdated = true;
-        for (const auto &job : waiting_) job->outdated = true;
-        changed_.notify_all();
-    }
-    worker_.join();
-}
-
-std::optional<std::string> Studio::make(const std::string &page, Work work) {
-    const auto job = std::make_shared<Job>();
-    job->page = page;
-    job->work = std::move(work);
+// Waits until it is the job's turn; returns false if it is outdated before.
+bool Studio::begin(const std::shared_ptr<Job> &job) {
     std::unique_lock lock(mutex_);
-    if (at_work_ && at_work_->page == page) at_work_->outdated = true;
-    const auto before = std::ranges::find(waiting_, page, [](const auto &other) { return other->page; });
+    if (at_work_ && at_work_->page == job->page) at_work_->outdated = true;
+    const auto before = std::ranges::find(waiting_, job->page, [](const auto &other) { return other->page; });
     if (before != waiting_.end()) {
         (*before)->outdated = true;
         *before = job; // keeps its turn
@@ -55,10 +36,40 @@ std::optional<std::string> Studio::make(const std::string &page, Work work) {
         throw Error("too many pages wait for pictures: close some");
     }
     changed_.notify_all();
-    changed_.wait(lock, [&] { return job->done || job->outdated; });
-    if (job->outdated) return {};
-    if (job->failure) std::rethrow_exception(job->failure);
-    return std::move(job->answer);
+    changed_.wait(lock, [&] { return job->outdated || (!at_work_ && waiting_.front() == job); });
+    if (job->outdated) return false;
+    waiting_.pop_front();
+    at_work_ = job;
+    return true;
+}
+
+void Studio::end(const Job &job) {
+    const std::lock_guard lock(mutex_);
+    at_work_.reset();
+    if (!job.outdated) ++finished_;
+    changed_.notify_all();
+}
+
+std::optional<std::string> Studio::make(const std::string &page, const Work &work) {
+    const auto job = std::make_shared<Job>();
+    job->page = page;
+    if (!begin(job)) return {};
+    const std::shared_ptr<void> ended(nullptr, [&](void *) { end(*job); });
+    const auto watch = [&] {
+        if (job->outdated) throw Outdated();
+    };
+    const auto say = [&](const std::string &stage, int percent) {
+        watch();
+        const std::lock_guard lock(mutex_);
+        job->state = {stage, percent};
+    };
+    try {
+        Progress progress(say, watch);
+        std::string answer = work(progress);
+        return job->outdated ? std::nullopt : std::optional(std::move(answer));
+    } catch (const Outdated &) {
+        return {};
+    }
 }
 
 std::optional<Studio::State> Studio::state(const std::string &page) const {
@@ -75,44 +86,6 @@ std::size_t Studio::waiting() const {
 std::size_t Studio::finished() const {
     const std::lock_guard lock(mutex_);
     return finished_;
-}
-
-void Studio::run() {
-    for (;;) {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return closing_ || !waiting_.empty(); });
-        if (closing_) return;
-        at_work_ = waiting_.front();
-        waiting_.pop_front();
-        const std::shared_ptr<Job> job = at_work_;
-        lock.unlock();
-        work_on(*job);
-        lock.lock();
-        at_work_.reset();
-        job->done = true;
-        if (!job->outdated) ++finished_;
-        changed_.notify_all();
-    }
-}
-
-// The answer is read only after the job is done.
-void Studio::work_on(Job &job) {
-    const auto watch = [&job] {
-        if (job.outdated) throw Outdated();
-    };
-    const auto say = [&](const std::string &stage, int percent) {
-        watch();
-        const std::lock_guard lock(mutex_);
-        job.state = {stage, percent};
-    };
-    try {
-        Progress progress(say, watch);
-        job.answer = job.work(progress);
-    } catch (const Outdated &) {
-        return; // nobody waits for the answer
-    } catch (...) {
-        job.failure = std::current_exception();
-    }
 }
 
 void Crew::add(std::function<void()> task) {

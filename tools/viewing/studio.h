@@ -1,5 +1,5 @@
-// Makes one picture at a time on a worker thread. A page's newer request replaces its older one, waiting or running;
-// pages take turns.
+// Makes one picture at a time, on the thread that asks for it. A page's newer request replaces its older one, waiting or
+// running; pages take turns.
 #pragma once
 
 #include "base/progress.h"
@@ -30,14 +30,9 @@ public:
 
     static constexpr std::size_t most_waiting = 16;
 
-    Studio();
-    ~Studio(); // ends the current work
-    Studio(const Studio &) = delete;
-    Studio &operator=(const Studio &) = delete;
-
-    // Waits for the answer; empty if the page has asked for something newer meanwhile. Rethrows exceptions of the work.
-    // Throws Error if more than `most_waiting` pages wait.
-    std::optional<std::string> make(const std::string &page, Work work);
+    // Waits for its turn and makes the answer; empty if the page has asked for something newer meanwhile. Throws what the
+    // work throws, and Error if more than `most_waiting` pages wait. All calls must end before the studio does.
+    std::optional<std::string> make(const std::string &page, const Work &work);
 
     // Empty if no work of the page is running.
     std::optional<State> state(const std::string &page) const;
@@ -47,16 +42,14 @@ public:
 
 private:
     struct Job;
-    void run();
-    void work_on(Job &job);
+    bool begin(const std::shared_ptr<Job> &job);
+    void end(const Job &job);
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::shared_ptr<Job>> waiting_; // at most one per page
     std::shared_ptr<Job> at_work_;             // null: no work is running
     std::size_t finished_ = 0;
-    bool closing_ = false;
-    std::thread worker_; // last: it uses the members above
 };
 
 // Threads that work on requests: at most `most_at_once`, each created when first needed. The callers of add() limit the
