@@ -7,7 +7,6 @@
 #include "chain/notices.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/merge.h"
-#include "deep/rounded.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_header.h"
 #include "view/lens_views.h"
@@ -208,7 +207,6 @@ void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &requ
         work.device->with(request.device, work.tell, warp_by);
     else
         warp_by(nullptr);
-    if (request.round_for_lens) round_for_lens(out.ldi, scale_in_picture(by));
 }
 
 MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &work) {

@@ -39,7 +39,6 @@ struct LdiFromViews {
     DepthOptions depth = {};
     std::optional<ColourOptions> colour = {}; // how they are made linear; empty: they are linear
     WarpOptions warp = {};                    // lens and device are filled in
-    bool round_for_lens = false;              // see deep/rounded.h
     std::string device = "cpu";               // as for choose_device() of gpu/device_list.h
 };
 

@@ -416,7 +416,6 @@ def warp(
     silhouettes: Literal["split", "whole"] = "split",
     agreement: Literal["test", "assume"] = "test",
     optical: Literal["on", "off"] = "on",
-    precision: Literal["exact", "lens"] = "exact",
     device: Optional[str] = "cpu",
     supersample: Optional[int] = None,
     progress: Optional[_Progress] = None,
@@ -433,7 +432,6 @@ def warp(
     silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
     agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
     optical: "on" finds the depth of what mirrors and glass show, by which it is blurred and averaged; or "off".
-    precision: "exact", or "lens": rounded as finely as a lens picture needs, for smaller files.
     device: the device that warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a
       device's name.
     supersample: this many pixels of the views, across and down, become one pixel of the picture (default: as the views

@@ -117,8 +117,6 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
     const std::vector<ViewInMemory> from = views_in_memory(views);
     LdiFromViews request{.warp = warp_options(keywords)};
-    request.round_for_lens =
-        keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
     request.denoised_pictures = denoised_pictures(keywords);
     request.noisy = keywords.text("noisy");
     if (!request.denoised_pictures.empty() && !request.noisy.empty())

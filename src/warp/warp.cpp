@@ -270,10 +270,6 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vect
     return with_lens(options, camera, views, views[0].samples.windows);
 }
 
-double scale_in_picture(const WarpOptions &with_lens) {
-    return perceptive_scale(with_lens.radius, with_lens.focal_px) / with_lens.across;
-}
-
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {
     return warp(referring_to(views), options, progress);
 }

@@ -50,9 +50,6 @@ struct WarpOptions {
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 
-// Perceptive depth times z, in pixels of the picture; a view may have several pixels for each of them.
-double scale_in_picture(const WarpOptions &with_lens);
-
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
 // others. Channels of rim views are matched by name. Throws Error if display windows differ or a rim view lacks a
 // channel of the centre view.

@@ -21,7 +21,7 @@ def test_warp(views, warped, tmp_path):
 
 
 @pytest.mark.parametrize("keywords", [{"merge": "keep"}, {"silhouettes": "whole"}, {"agreement": "assume"},
-                                      {"optical": "off"}, {"precision": "lens"}])
+                                      {"optical": "off"}])
 def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
     (name, value), = keywords.items()
     tool("ldi-warp", *names, "--" + name, value, "-o", tmp_path / "tool.exr")

@@ -32,9 +32,6 @@ same default.exr average.exr "average is the default"
 differ keep.exr average.exr "--merge"
 exits 0 "$warp" $center "${rim[@]}" -o whole.exr --silhouettes whole
 differ_samples whole.exr average.exr "--silhouettes"
-exits 0 "$warp" $center "${rim[@]}" -o rounded.exr --precision lens
-differ_samples rounded.exr average.exr "--precision"
-[ "$(stat -c %s rounded.exr)" -lt $(($(stat -c %s average.exr) * 9 / 10)) ] || fail "--precision lens makes no smaller file"
 exits 0 "$bin/dof-trace" mirror -o mirror --size 160x90 --views 2 --spp 4 --focus-distance 12 --lens-radius 0.2
 exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o tested.exr
 exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o assumed.exr --agreement assume
@@ -48,7 +45,6 @@ done
 for value in both 1 ''; do
     fails_saying 2 '--agreement.*test|assume' "$warp" $center -o x.exr --agreement "$value"
     fails_saying 2 '--optical.*on|off' "$warp" $center -o x.exr --optical "$value"
-    fails_saying 2 '--precision.*exact|lens' "$warp" $center -o x.exr --precision "$value"
     fails_saying 2 '--merge.*average|keep' "$warp" $center -o x.exr --merge "$value"
     fails_saying 2 '--silhouettes.*split|whole' "$warp" $center -o x.exr --silhouettes "$value"
 done

@@ -61,12 +61,6 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "them by it; off: blur them by the depth of the surface (default: on)")
         ->type_name("on|off")
         ->transform(words(optical));
-    const std::map<std::string, bool> precisions{{"exact", false}, {"lens", true}};
-    app.add_option("--precision", options.round_for_lens,
-                   "Digits of the file. lens: round depths and offsets to 1/64 pixel of blur, and colours to "
-                   "1/512, which makes files a quarter smaller; exact: keep all digits (default: exact)")
-        ->type_name("exact|lens")
-        ->transform(words(precisions));
     add_device_option(app, options.device, "Device that warps");
     add_compression_option(app, options.compression, true);
     add_parameters(app, lens_parameters(), options.lens);
