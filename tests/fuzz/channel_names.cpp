@@ -1,12 +1,11 @@
 // Any lines as the channels of a file and the attributes that name Cryptomattes: finds each channel's kind, the mattes,
-// the beauty, the depth, luminance and chroma. "h NAME", "f NAME" and "u NAME" are channels of half, float and uint;
-// other lines are attributes.
+// the beauty, the depth. "h NAME", "f NAME" and "u NAME" are channels of half, float and uint; other lines are
+// attributes.
 #include "base/matte.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/exr_channels.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_parts.h"
-#include "io/exr/luminance_chroma.h"
 
 #include <ImfStringAttribute.h>
 
@@ -56,7 +55,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
                 for (const Channel &channel : channels) last.name_of(channel.name);
                 name_beauty(found, pictures.front().beauty, channels);
             }
-            is_luminance_chroma(header);
             find_depth_channel(channels, "", "fuzz");
         });
     return 0;

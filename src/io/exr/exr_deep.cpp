@@ -194,9 +194,9 @@ private:
     KeptNames kept_;
 };
 
-LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const PictureChoice &choice) {
+LdiFile read_flat_as_ldi(const DeepSource &source, const PictureChoice &choice) {
     const std::string &path = source.path;
-    FlatFile flat = read_flat_part(source.file, path, stream, choice);
+    FlatFile flat = read_flat_part(source.file, path, source.size, choice);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
     const DepthChannel depth = find_depth_channel(flat.image.channels, choice.depth_in_memory(), path);
     if (choice.depth_file.empty()) flat.notes.push_back("depth: " + depth.name);
@@ -216,7 +216,7 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         Imf::MultiPartInputFile file = open_exr(*stream);
         const DeepSource source{file, *stream, path, stream->bytes()};
         const std::vector<int> deep = deep_parts(file);
-        if (deep.empty()) return read_flat_as_ldi(source, *stream, choice);
+        if (deep.empty()) return read_flat_as_ldi(source, choice);
         if (!choice.depth_file.empty())
             throw UsageError(
                 fmt::format("`depth_file`: goes with flat pictures, and {} is deep: its samples have "

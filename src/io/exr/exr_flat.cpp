@@ -8,7 +8,6 @@
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header.h"
 #include "io/exr/exr_parts.h"
-#include "io/exr/luminance_chroma.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
@@ -178,29 +177,17 @@ struct MissingCoverage {
 std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &part, Image &image,
                           std::size_t k) {
     const Windows &w = image.windows;
-    const Imf::Header &header = file.header(part.part);
-    std::optional<LuminanceChroma> made;
-    if (is_luminance_chroma(header)) made.emplace(header);
-    std::array<std::span<float>, 3> colours;
     Imf::FrameBuffer pixels;
     for (const auto &[in_file, channel, kept] : part.channels) {
-        const std::span<float> plane = image.plane(k++);
-        if (made && is_among(rgb_names, in_file)) {
-            colours[std::size_t(std::ranges::find(rgb_names, in_file) - rgb_names.begin())] = plane;
-            continue;
-        }
         const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
-        pixels.insert(in_file, Imf::Slice::Make(type, plane.data(), w.data, sizeof(float),
+        pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
                                                 sizeof(float) * std::size_t(w.width())));
     }
-    if (std::ranges::any_of(colours, &std::span<float>::empty)) made.reset();
-    if (made) made->insert_into(pixels);
     if (pixels.begin() == pixels.end()) return k;
     Imf::InputPart input(file, part.part);
     input.setFrameBuffer(pixels);
-    const Imath::Box2i &own = header.dataWindow();
+    const Imath::Box2i &own = file.header(part.part).dataWindow();
     input.readPixels(own.min.y, own.max.y);
-    if (made) made->write(colours, Grid(w.data));
     return k;
 }
 
@@ -212,7 +199,7 @@ std::vector<std::span<float>> planes_of(Image &image) {
 
 } // namespace
 
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const PictureChoice &choice) {
     PictureParts picture = parts_of_picture(file, path, choice);
     const Imf::Header header = header_of(file, picture, path);
@@ -220,14 +207,13 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     find_kinds_by(header, channels);
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
-    check_memory(path, memory_of(header, channels.size()), stream.bytes());
+    check_memory(path, memory_of(header, channels.size()), size);
     Image image(picture.windows, channels);
     std::size_t k = 0;
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
-    FlatFile result{std::move(image), header, stream.bytes(), std::move(picture.notes),
-                    std::move(picture.warnings)};
+    FlatFile result{std::move(image), header, size, std::move(picture.notes), std::move(picture.warnings)};
     if (!choice.depth_file.empty()) put_depth_of_file(result, path, choice);
     if (choice.unpremultiplied) premultiply(result.image.channels, planes_of(result.image));
     return result;
@@ -238,7 +224,7 @@ FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice) {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file = open_exr(*stream);
-        return read_flat_part(file, path, *stream, choice);
+        return read_flat_part(file, path, stream->bytes(), choice);
     });
 }
 

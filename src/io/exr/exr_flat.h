@@ -18,8 +18,6 @@
 
 namespace sparselens {
 
-class InputStream; // io/files/file_stream.h
-
 struct FlatFile {
     Image image;
     Imf::Header header;                  // of the part with the beauty
@@ -40,8 +38,8 @@ FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {}
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
 // Whether it is a file that can be read twice, and has only deep parts.
 bool is_deep_alone(const std::string &path);
-// `path` is for messages; `file` reads from `stream`.
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
+// `path` is for messages; `size`: bytes of the file.
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const PictureChoice &choice);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found) and drops the other channels with

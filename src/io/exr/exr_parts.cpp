@@ -6,7 +6,6 @@
 #include "io/exr/exr_channels.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header.h"
-#include "io/exr/luminance_chroma.h"
 #include "io/files/file_stream.h"
 
 #include <ImfMultiPartInputFile.h>
@@ -123,16 +122,15 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     const auto views = several ? views_of(header) : std::vector<std::string>();
     std::vector<FileChannel> channels, shared;
     const Imf::ChannelList &list = header.channels();
-    const bool by_luminance = is_luminance_chroma(header);
-    if (by_luminance)
-        for (const char *colour : rgb_names) channels.push_back({colour, {colour, PixelType::half}});
     for (auto it = list.begin(); it != list.end(); ++it) {
-        if (by_luminance && is_luminance_or_chroma(it.name())) continue;
         const NameInView name = split_name(it.name(), views);
         if (several && name.view != view && !name.view.empty()) continue;
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            throw Error(fmt::format("{}: channel {} is subsampled, which is not supported",
-                                    display_name(path), it.name()));
+            throw Error(fmt::format(
+                "{}: channel {} is subsampled, as in colours stored as luminance and chroma (Y, RY, BY): "
+                "render R, G and B, or convert what needs no depth (from oiiotool 2.5.8 on: oiiotool "
+                "--oiioattrib openexr:core 0 IN -o OUT.exr)",
+                display_name(path), it.name()));
         auto &to = several && name.view.empty() ? shared : channels;
         to.push_back({it.name(), channel_of(name.plain, it.channel())});
     }

@@ -41,7 +41,7 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
 
 // A channel by its name in the file and as a channel of the picture of one view.
 struct FileChannel {
-    std::string in_file; // R, G or B if they are made from luminance and chroma
+    std::string in_file;
     Channel channel;
     std::string kept =
         {}; // the name that it keeps in files if the picture knows it by another (exr_common.h)

@@ -8,6 +8,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
@@ -209,20 +210,38 @@ std::vector<Compression> all_compressions() {
 INSTANTIATE_TEST_SUITE_P(ExrFlat, Compressions, testing::ValuesIn(all_compressions()),
                          [](const auto &compression) { return std::string(compression.param.name); });
 
-TEST_F(ExrFlat, SubsampledChannelsAreAnErrorThatNamesFileAndChannel) {
-    Imf::Header header(4, 4);
-    header.channels().insert("RY", Imf::Channel(Imf::HALF, 2, 2));
-    std::vector<half> values(4, half(0.0f));
+TEST_F(ExrFlat, LuminanceAndChromaAreAnErrorThatSaysWhatToDo) {
     {
-        Imf::OutputFile file(path.c_str(), header);
-        Imf::FrameBuffer pixels;
-        pixels.insert("RY", Imf::Slice(Imf::HALF, reinterpret_cast<char *>(values.data()), sizeof(half),
-                                       2 * sizeof(half), 2, 2));
-        file.setFrameBuffer(pixels);
+        const std::vector<Imf::Rgba> pixels(16);
+        Imf::RgbaOutputFile file(path.c_str(), Imf::Header(4, 4), Imf::WRITE_YCA);
+        file.setFrameBuffer(pixels.data(), 1, 4);
         file.writePixels(4);
     }
-    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path); }),
-              path + ": channel RY is subsampled, which is not supported");
+    const std::string expected =
+        path +
+        ": channel BY is subsampled, as in colours stored as luminance and chroma (Y, RY, BY): render R, G "
+        "and B, or convert what needs no depth (from oiiotool 2.5.8 on: oiiotool --oiioattrib openexr:core 0 "
+        "IN -o OUT.exr)";
+    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path); }), expected);
+    EXPECT_EQ(what_of<Error>([&] { read_flat_header(path); }), expected);
+}
+
+TEST_F(ExrFlat, ChannelsSubsampledInOneDirectionAreAnErrorThatNamesThem) {
+    for (const auto &[across, down] : {std::pair(2, 1), std::pair(1, 2)}) {
+        Imf::Header header(4, 4);
+        header.channels().insert("u", Imf::Channel(Imf::HALF, across, down));
+        std::vector<half> values(8, half(0.0f));
+        {
+            Imf::OutputFile file(path.c_str(), header);
+            Imf::FrameBuffer pixels;
+            pixels.insert("u", Imf::Slice(Imf::HALF, reinterpret_cast<char *>(values.data()), sizeof(half),
+                                          sizeof(half) * std::size_t(4 / across), across, down));
+            file.setFrameBuffer(pixels);
+            file.writePixels(4);
+        }
+        EXPECT_TRUE(
+            what_of<Error>([&] { read_flat_exr(path); }).starts_with(path + ": channel u is subsampled, "));
+    }
 }
 
 TEST_F(ExrFlat, ErrorsNameTheFile) {
