@@ -4,6 +4,9 @@
 // The interface is in C, so no exception and no object crosses it.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 namespace sparselens {
 
 struct OiioPicture {
@@ -28,8 +31,10 @@ struct OiioModule {
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";
 
-// Loads the module at the first call, from ../lib/sparselens beside the program, or else from the installation folder.
-// Throws Error if it is not found or cannot be loaded.
-const OiioModule &oiio_module();
+// Rounds as OpenImageIO does; NaN becomes 0.
+inline std::uint8_t in_8_bits(float value) {
+    const float scaled = value * 255 + 0.5f;
+    return scaled >= 0 ? std::uint8_t(std::min(scaled, 255.0f)) : std::uint8_t(0);
+}
 
 } // namespace sparselens
