@@ -175,13 +175,6 @@ int main(int argc, char **argv) {
                       argc, argv, [](CLI::App &app) {
                           const auto options = std::make_shared<FinishCommand>();
                           add_finish_options(app, *options);
-                          Job job{[options](const ToolContext &tool) { run(*options, tool); }};
-                          job.also_reads = [options](const ToolContext &tool) {
-                              std::vector<std::string> names;
-                              for (const auto &frame : names_around(*options, tool))
-                                  names.insert(names.end(), frame.begin(), frame.end());
-                              return names;
-                          };
-                          return job;
+                          return Job{[options](const ToolContext &tool) { run(*options, tool); }};
                       });
 }

@@ -67,8 +67,8 @@ def layers(options):
         found = [("picture", picture)]
     else:
         ldi, picture = str(options.output / "ldi.####.exr"), str(options.output / "picture.####.exr")
-        warp = ["ldi-warp", str(options.views / "center.####.exr"), *rim_views(options.views), "-o", ldi, FRAMES, "-u"]
-        found = [("warp", warp), ("gather", ["dof-gather", ldi, "-o", picture, FRAMES, "-u", *options.options])]
+        warp = ["ldi-warp", str(options.views / "center.####.exr"), *rim_views(options.views), "-o", ldi, FRAMES]
+        found = [("warp", warp), ("gather", ["dof-gather", ldi, "-o", picture, FRAMES, *options.options])]
     return [(name, [shlex.quote(word) for word in words]) for name, words in found]
 
 

@@ -11,4 +11,4 @@
 # depth image. docs/farm.md says more.
 set -euo pipefail
 output=$1 frame=$SLURM_ARRAY_TASK_ID
-exec dof-gather "$output/ldi.####.exr" -o "$output/picture.####.exr" --frames="$frame" -u "${@:2}"
+exec dof-gather "$output/ldi.####.exr" -o "$output/picture.####.exr" --frames="$frame" "${@:2}"

@@ -7,9 +7,9 @@
 #
 #   sbatch --array=1-24 warp.sh VIEWS OUTPUT
 #
-# VIEWS is the folder of center.####.exr, view_0.####.exr, ...; OUTPUT the folder of ldi.####.exr. A task that Slurm
-# restarts keeps a complete file (-u). docs/farm.md says more.
+# VIEWS is the folder of center.####.exr, view_0.####.exr, ...; OUTPUT the folder of ldi.####.exr. docs/farm.md
+# says more.
 set -euo pipefail
 views=$1 output=$2 frame=$SLURM_ARRAY_TASK_ID
 rim=("$views"/view_*."$(printf %04d "$frame")".exr)
-exec ldi-warp "$views/center.####.exr" "${rim[@]/%.????.exr/.####.exr}" -o "$output/ldi.####.exr" --frames="$frame" -u
+exec ldi-warp "$views/center.####.exr" "${rim[@]/%.????.exr/.####.exr}" -o "$output/ldi.####.exr" --frames="$frame"

@@ -59,16 +59,6 @@ for template in "${templates[@]}"; do
     done
     [ ! -e run ] || fail "$template runs what stands in the options"
 done
-rm -rf out && templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \
-    LensOptions='--focus-distance 3 --fstop 1'
-
-# A task that runs again makes missing files and keeps the rest.
-rm out/picture.0002.exr
-before=$(ls -i out)
-templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \
-    LensOptions='--focus-distance 3 --fstop 1'
-[ "$(ls -i out | grep -vF 0002.exr)" = "$(grep -vF 0002.exr <<<"$before")" ] || fail "complete files were made again"
-cmp out/picture.0002.exr expected.exr || fail "the missing picture"
 if python3 "$farm/openjd_template.py" run "${templates[0]}" session Views="$scratch/no views" Output="$scratch/out" Frames=9 >log 2>&1; then
     fail "a frame without views is no failure: $(cat log)"
 fi

@@ -74,12 +74,6 @@ for frame in 1 2; do cp gathered.exr g.000$frame.exr && cp $one a.000$frame.exr 
 exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2
 same f.0001.exr out.exr "--frames"
 same f.0002.exr out.exr "--frames"
-exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2 -u -v
-[ "$(grep -c 'is up to date' stderr)" -eq 2 ] || fail "-u: $(cat stderr)"
-sleep 0.01
-touch b.0002.exr
-exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2 -u -v
-[ "$(grep -c 'is up to date' stderr)" -eq 1 ] || fail "-u after a render changed: $(cat stderr)"
 "$bin/dof-gather" ldi.exr -o - | "$finish" - $one $two -o - >piped.exr
 same piped.exr out.exr "pipes"
 exits 0 "$finish" gathered.exr $one $two -o out.png
@@ -121,12 +115,6 @@ exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 
 holds "$(decibels around.0002.exr $truth) > $(decibels alone.0002.exr $truth) + 1" "--neighbours: $(decibels around.0002.exr $truth)"
 exits 0 "$finish" "${sequence[@]}" -o chunk.####.exr --frames 2-2 --neighbours 1 --threads 1
 same chunk.0002.exr around.0002.exr "a frame alone has its neighbours"
-exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 1 -u -v
-[ "$(grep -c 'is up to date' stderr)" -eq 3 ] || fail "-u with --neighbours: $(cat stderr)"
-sleep 0.01
-touch n2.0003.exr
-exits 0 "$finish" "${sequence[@]}" -o around.####.exr --frames 1-3 --neighbours 1 -u -v
-[ "$(grep -c 'is up to date' stderr)" -eq 1 ] || fail "-u after a neighbour changed: $(cat stderr)"
 fails_saying 2 'gathered.exr is the same for all frames: give a sequence' "$finish" gathered.exr $one $two -o x.exr --neighbours 1
 fails_saying 2 '--neighbours' "$finish" "${sequence[@]}" -o x.####.exr --frames 1-3 --neighbours -1
 cp n.0001.exr kept.exr

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Ranges of frames, up-to-date checks, progress for farms and threads: the options that all tools of the chain share.
+# Ranges of frames, existing outputs, progress for farms and threads: the options that all tools of the chain share.
 . "$(dirname "$0")/check.sh"
 . "$source_dir/tests/tools/deep.sh"
 gather=$bin/dof-gather
@@ -88,7 +88,7 @@ for threads in 0 1; do
 done
 rm -r unwritten.*.exr
 
-# -u keeps up-to-date files: an interrupted range is completed, and nothing else is touched.
+# --skip-existing completes an interrupted range, and touches nothing else.
 rm pull.*.exr
 "${pull[@]}" --lens-samples 4096 2>tool.err &
 process=$!
@@ -99,50 +99,15 @@ wait $process 2>/dev/null || true
 before=$(count 'pull.????.exr')
 [ "$before" -lt 24 ] || fail "it was not killed in the middle"
 ls --full-time pull.0001.exr pull.0002.exr >old.txt
-exits 0 "${pull[@]}" -u -v
-[ "$(count 'pull.????.exr')" -eq 24 ] || fail "-u does not finish the rest: $(ls)"
-[ "$(grep -c 'is up to date' stderr)" -eq "$before" ] || fail "$before frames were there, -u left $(grep -c 'is up to date' stderr)"
-ls --full-time pull.0001.exr pull.0002.exr | cmp - old.txt || fail "-u writes what is up to date"
-same pull.0024.exr last.exr "the last frame after -u"
-redone() { # COUNT WHY
-    exits 0 "${pull[@]}" -u -v
-    [ "$((24 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: $2"
-}
-redone 0 "all is up to date"
-rm pull.0005.exr
-: >pull.0006.exr
-head -c 2000 pull.0008.exr >cut.exr
-mv cut.exr pull.0008.exr
-redone 3 "one missing, one empty, one cut off"
-same_pixels pull.0009.exr ninth.exr "-u"
-touch -d '1 hour' ldi.exr
-redone 24 "the LDI is newer"
-touch ldi.exr
+exits 0 "${pull[@]}" --skip-existing -v
+[ "$(count 'pull.????.exr')" -eq 24 ] || fail "--skip-existing does not finish the rest: $(ls)"
+[ "$(grep -c 'exr exists$' stderr)" -eq "$before" ] || fail "$before frames were there, not $(grep -c 'exr exists$' stderr)"
+ls --full-time pull.0001.exr pull.0002.exr | cmp - old.txt || fail "--skip-existing writes what exists"
+same pull.0024.exr last.exr "the last frame after --skip-existing"
+exits 0 "${pull[@]}" --depth-out depth.####.exr --skip-existing -v
+if grep -q 'exists$' stderr; then fail "frames without their depths are left out"; fi
 exits 0 "${pull[@]}" -v
-if grep -q 'up to date' stderr; then fail "without -u frames are left out"; fi
-
-# -u redoes files that another command made, by the output's history; if there is none, it says so, once.
-done_by() { # FRAMES COMMAND...: this many frames are made again
-    exits 0 "${@:2}" -u -v
-    [ "$((4 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: ${*:2} ($(cat stderr))"
-}
-few=("$gather" ldi.exr -o few.####.exr --frames 1-4)
-exits 0 "${few[@]}" --focus-distance 1:5,4:2
-done_by 0 "${few[@]}" --focus-distance 1:5,4:3
-[ "$(grep -c 'warning: -u did not compare' stderr)" -eq 1 ] || fail "-u does not say that it did not compare: $(cat stderr)"
-unset SPARSELENS_NO_HISTORY
-rm few.*.exr
-done_by 4 "${few[@]}" --focus-distance 1:5,4:2
-done_by 0 "${few[@]}" --focus-distance 1:5,4:2
-if grep -q 'did not compare' stderr; then fail "-u says that it did not compare: $(cat stderr)"; fi
-done_by 0 "${few[@]}" --focus-distance 1:5,4:2 --threads 1
-done_by 3 "${few[@]}" --focus-distance 1:5,4:3
-done_by 4 "${few[@]}" --focus-distance 1:5,4:3 --fstop 2
-exits 0 "$gather" ldi.exr -o last.few.exr --focus-distance 3 --fstop 2 --no-history
-same_pixels few.0004.exr last.few.exr "-u after another command"
-done_by 0 "${few[@]}" --focus-distance 5 --no-history
-grep -q 'warning: -u did not compare the options of few.0001.exr' stderr || fail "--no-history -u: $(cat stderr)"
-export SPARSELENS_NO_HISTORY=1
+if grep -q 'exists$' stderr; then fail "without --skip-existing frames are left out"; fi
 
 # Keys: thousands of them, also in a file; pixels by frame.
 seq 0 5000 | awk '{ printf "%s%d:%.3f", (NR > 1 ? "," : ""), $1, 2 + $1 / 10 }' >keys.txt
@@ -255,11 +220,8 @@ progress() { # FORMAT PATTERN COMMAND...: only lines of the pattern on stderr; i
 }
 pull=("$gather" ldi.exr -o pull.####.exr --frames 1-4 --focus-distance 1:5.0,4:2.0)
 progress plain 'dof-gather: ([0-9]+)%' "${pull[@]}"
-unset SPARSELENS_NO_HISTORY # -u compares the commands
-exits 0 "${pull[@]}"
-progress alf 'ALF_PROGRESS ([0-9]+)%' "${pull[@]}" -u
-export SPARSELENS_NO_HISTORY=1
-for percent in 25 50 75; do grep -qx $percent percents || fail "frames up to date do not count: $(cat percents)"; done
+progress alf 'ALF_PROGRESS ([0-9]+)%' "${pull[@]}" --skip-existing
+for percent in 25 50 75; do grep -qx $percent percents || fail "frames that exist do not count: $(cat percents)"; done
 exits 0 "${pull[@]}" --progress openjd
 grep -v '^openjd_status: ' stderr >percents
 if grep -Evq '^openjd_progress: [0-9]+$' percents; then fail "--progress openjd: $(cat stderr)"; fi

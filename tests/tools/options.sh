@@ -84,14 +84,14 @@ count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-finish; do
     frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1-4x3
     [ "$(count "frame.*.$tool.${ending[$tool]:-exr}")" -eq 2 ] || fail "$tool --frames 1-4x3: $(ls)"
-    frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1,2,4 -u -v --progress plain
-    [ "$(grep -c 'is up to date' stderr)" -eq 2 ] || fail "$tool -u: $(cat stderr)"
+    frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1,2,4 --skip-existing -v --progress plain
+    [ "$(grep -c 'exists$' stderr)" -eq 2 ] || fail "$tool --skip-existing: $(cat stderr)"
     grep -qx "$tool: 100%" stderr || fail "$tool --progress: $(cat stderr)"
     frame_name=.# expected=1 run $tool bad.#.$tool.${ending[$tool]:-exr} --frames 1-4
     [ "$(count "bad.*.$tool.${ending[$tool]:-exr}")" -eq 2 ] || fail "$tool goes on after a frame that fails: $(ls)"
     frame_name=.# expected=1 run $tool bad.#.$tool.${ending[$tool]:-exr} --frames 1-4 --skip-bad-frames
     [ "$(count "bad.*.$tool.${ending[$tool]:-exr}")" -eq 3 ] || fail "$tool --skip-bad-frames: $(ls)"
-    show $tool --frames -u --progress --skip-bad-frames
+    show $tool --frames --skip-existing --progress --skip-bad-frames
 done
 
 # --- All options of all tools ---

@@ -98,7 +98,7 @@ exits 0 "$bin/ldi-warp" --camera cm.usda --camera-name tele --camera-frame 1 bar
 changes at-1.exr at-3.exr --camera-frame
 exits 0 "$bin/ldi-warp" --camera cm.usda --camera-name tele --focal-length 24 --camera-frame 1 bare/center.exr -v -o x.exr
 
-# One layer for all frames of a range, from centre views that record their cameras. -u does not lose frames.
+# One layer for all frames of a range, from centre views that record their cameras. --skip-existing does not lose frames.
 for frame in 1 2 3; do
     "$bin/dof-trace" fence --size 48x27 --views 4 --spp 1 --dolly 0.$frame -o $frame
     for view in center view_0 view_1 view_2 view_3; do cp $frame/$view.exr $view.000$frame.exr; done
@@ -109,8 +109,8 @@ says 'xformOp:translate.timeSamples' pull.usda
 says '3: \(0.03, 0, 0\)' pull.usda
 says '2: "center.0002.exr"' keyed.usda
 cp keyed.usda first.usda
-exits 0 "$bin/ldi-plan" center.####.exr --frames 1-3 -o plan.####.json --cameras keyed.usda -u
-cmp keyed.usda first.usda || fail "-u loses frames"
+exits 0 "$bin/ldi-plan" center.####.exr --frames 1-3 -o plan.####.json --cameras keyed.usda --skip-existing
+cmp keyed.usda first.usda || fail "--skip-existing loses frames"
 exits 0 "$bin/ldi-plan" --camera keyed.usda --camera-name center --cameras ring.usda
 exits 0 "$bin/ldi-warp" --camera ring.usda center.####.exr view_{0..3}.####.exr --frames 1-3 -o usd.####.exr
 exits 0 "$bin/ldi-warp" center.####.exr view_{0..3}.####.exr --frames 1-3 -o own.####.exr

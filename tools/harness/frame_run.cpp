@@ -96,7 +96,7 @@ namespace {
 struct FrameOptions {
     std::string frames; // read by FrameCommands
     std::string stats;
-    bool skip_bad_frames = false, update = false;
+    bool skip_bad_frames = false, skip_existing = false;
     ProgressFormat progress = ProgressFormat::terminal;
 };
 
@@ -122,8 +122,7 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_flag("--skip-bad-frames", options.skip_bad_frames,
                  "Continue after a frame that fails, and exit with code 1 at the end")
         ->group("Frames");
-    app.add_flag("-u,--update", options.update,
-                 "Skip frames whose output is complete, newer than the input, and made by the same command")
+    app.add_flag("--skip-existing", options.skip_existing, "Skip frames whose outputs exist")
         ->group("Frames");
     app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
         ->type_name("FILE");
@@ -170,22 +169,14 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
     return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
-// Whether -u skips the frame. A frame is not skipped if it adds to an output that holds all frames.
-bool is_up_to_date(const FrameCommand &command, const ToolContext &tool) {
-    const CLI::App &parsed = command.app;
-    NamedFiles files = named_files(parsed);
-    if (command.job.also_reads)
-        for (std::string &path : command.job.also_reads(tool)) files.inputs.push_back({"", std::move(path)});
-    if (std::ranges::any_of(files.outputs, [](const NamedFile &file) { return holds_all_frames(file.path); }))
-        return false;
-    const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
-    if (found == Freshness::stale) return false;
-    const std::string &output = files.outputs.front().path;
-    if (found == Freshness::not_compared)
-        warn_once(tool, "-u",
-                  "-u did not compare the options of " + output +
-                      " with those given, because no command line is recorded for it");
-    tool.say(output + " is up to date");
+// Whether the outputs of the frame are there, none of which holds all frames.
+bool has_outputs(const FrameCommand &command, const ToolContext &tool) {
+    const std::vector<NamedFile> outputs = named_files(command.app).outputs;
+    if (outputs.empty()) return false;
+    std::error_code unknown;
+    for (const auto &[option, path] : outputs)
+        if (!std::filesystem::is_regular_file(path, unknown) || holds_all_frames(path)) return false;
+    tool.say(outputs.front().path + " exists");
     return true;
 }
 
@@ -286,7 +277,7 @@ int run_words(const std::string &name, const std::string &description, const std
         });
         const bool aside = i + 1 < count && has_threads();
         const auto work = [=] {
-            if (!command->frames.update || !is_up_to_date(*command, *tool)) command->job.work(*tool);
+            if (!command->frames.skip_existing || !has_outputs(*command, *tool)) command->job.work(*tool);
             if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
         };
         const auto last_step = [=] {

@@ -65,8 +65,6 @@ struct Job {
     // this one. Frames with different names may be worked on at the same time, on any thread, and write files only in
     // their last steps. Without this function, all frames run one after the other.
     std::function<std::string()> keeps = {};
-    // The files that the work reads besides those that its options name.
-    std::function<std::vector<std::string>(const ToolContext &)> also_reads = {};
     // Whether it makes one output of the moments of a shutter, whose files one name with %s names. Other tools run once
     // for each moment (commands/each_picture.h).
     bool joins_moments = false;
@@ -81,9 +79,9 @@ int run_tool(CLI::App &app, int argc, char **argv, const Work &work, Reads reads
 int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work,
              Reads reads = Reads::files); // without the program
 
-// Runs the tool for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and --stats.
-// `prepare` adds the options of the tool to an app and returns the job that they describe; it is called again for every
-// frame.
+// Runs the tool for each frame of a range (frames.h), with --frames, --skip-bad-frames, --skip-existing, --progress and
+// --stats. `prepare` adds the options of the tool to an app and returns the job that they describe; it is called again
+// for every frame.
 using Prepare = std::function<Job(CLI::App &)>;
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
                const Prepare &prepare);
