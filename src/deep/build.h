@@ -2,6 +2,7 @@
 // as a weighted sum of old ones and builds its result row by row, in parallel.
 #pragma once
 
+#include "base/light.h"
 #include "base/matte.h"
 #include "deep/ldi.h"
 
@@ -69,6 +70,22 @@ inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t i
 }
 inline float back_at(const Ldi &ldi, std::uint64_t index) {
     return ldi.z_back.empty() ? ldi.z[index] : ldi.z_back[index];
+}
+
+// Calls visit(sample, what the samples in front of it let through), front to back. Returns what all of them let through.
+template <typename Samples, typename Visit>
+double for_shares(const Samples &in, std::size_t alpha_channel, const SampleRange &range,
+                  const Visit &visit) {
+    double left = 1; // double: thousands of thin samples may add up
+    for (const std::uint64_t i : range) {
+        visit(i, left);
+        left *= 1 - double(alpha_at(in, alpha_channel, i));
+    }
+    return left;
+}
+template <typename Samples>
+bool lets_through(const Samples &in, std::size_t alpha_channel, const SampleRange &range) {
+    return lets_through(for_shares(in, alpha_channel, range, [](std::uint64_t, double) {}));
 }
 
 // Appends the values of the new sample to the channels of `out`. value_at(channel, sample) returns the value of a

@@ -85,12 +85,11 @@ double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
 void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance,
                 std::vector<Term> &terms) {
     terms.clear();
-    double transmittance = 1;
     std::uint64_t i = begin;
-    for (; i < end && !is_one_in_half(alpha_at(p.ldi, p.alpha, i)); ++i) {
-        terms.push_back({i, transmittance});
-        transmittance *= 1 - double(alpha_at(p.ldi, p.alpha, i));
-    }
+    while (i < end && !is_one_in_half(alpha_at(p.ldi, p.alpha, i))) ++i;
+    const double transmittance = for_shares(p.ldi, p.alpha, {begin, i}, [&](std::uint64_t n, double share) {
+        terms.push_back({n, share});
+    });
     if (i == end) return;
     const double surface = p.front(i);
     const std::size_t first_opaque = terms.size();

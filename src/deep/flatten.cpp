@@ -12,12 +12,10 @@ namespace {
 void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std::size_t pixel, Image &out) {
     const std::size_t plane = out.windows.pixels();
     for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-        double transmittance = 1, sum = 0; // double: thousands of thin samples may add up
-        for (const std::uint64_t i : ldi.pixel(pixel)) {
-            if (!(transmittance > 0)) break;
-            sum += transmittance * ldi.values[k][i];
-            transmittance *= 1 - double(alpha_at(ldi, coverage[k], i));
-        }
+        double sum = 0;
+        for_shares(ldi, coverage[k], ldi.pixel(pixel), [&](std::uint64_t i, double share) {
+            if (share > 0) sum += share * ldi.values[k][i];
+        });
         out.values[k * plane + pixel] = float(sum);
     }
 }
@@ -37,12 +35,9 @@ std::vector<std::size_t> channels_of_ids(const Ldi &ldi) {
 }
 
 void flatten_mattes(const Ldi &ldi, MatteSum &sums, std::size_t pixel, Image &out) {
-    double transmittance = 1;
-    for (const std::uint64_t i : ldi.pixel(pixel)) {
-        if (!(transmittance > 0)) break;
-        sums.add(transmittance, [&](std::size_t k) { return ldi.values[k][i]; });
-        transmittance *= 1 - double(alpha_at(ldi, ldi.alpha(), i));
-    }
+    for_shares(ldi, ldi.alpha(), ldi.pixel(pixel), [&](std::uint64_t i, double share) {
+        if (share > 0) sums.add(share, [&](std::size_t k) { return ldi.values[k][i]; });
+    });
     sums.take([&](std::size_t k, float value) { out.values[k * out.windows.pixels() + pixel] = value; });
 }
 

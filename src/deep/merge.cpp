@@ -183,14 +183,12 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
         for (int x = data.min.x; x <= data.max.x; ++x) {
             const std::size_t pixel = ldi.windows.index(x, y);
             std::ranges::fill(sums, 0.0);
-            double transmittance = 1;
-            for (const std::uint64_t i : ldi.pixel(pixel)) {
-                if (!(transmittance > 0)) break;
+            for_shares(ldi, alpha, ldi.pixel(pixel), [&](std::uint64_t i, double transmittance) {
+                if (!(transmittance > 0)) return;
                 const double share = transmittance * holdout.passes(x, y, ldi.z[i]);
                 for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * ldi.values[k][i];
                 matte_sums.add(share, [&](std::size_t k) { return ldi.values[k][i]; });
-                transmittance *= 1 - double(alpha_at(ldi, alpha, i));
-            }
+            });
             for (std::size_t k = 0; k < sums.size(); ++k)
                 if (!holds_ids(ldi.channels[k]))
                     out.values[k * out.windows.pixels() + pixel] = float(sums[k]);

@@ -75,14 +75,11 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
-            const std::size_t pixel = ldi.windows.index(x, y);
-            double shown = 1;
-            for (const std::uint64_t i : ldi.pixel(pixel)) {
+            for_shares(ldi, alpha, ldi.pixel(ldi.windows.index(x, y)), [&](std::uint64_t i, double shown) {
                 const MergedSample s = sample_at(ldi, i);
                 seen.push_back({i, s.z, s.optical, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
                                 (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
-                shown *= 1 - double(alpha_at(ldi, alpha, i));
-            }
+            });
         }
     if (!joined.empty()) take_means(joined, seen);
     std::ranges::sort(seen, {}, [](const Seen &s) { return std::pair(s.z, s.index); });

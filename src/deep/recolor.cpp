@@ -38,11 +38,9 @@ void add_full_coverage(Ldi &ldi) {
 
 // How much of a pixel the samples show, weighted by channel `weight` and covered by channel `cover`.
 double shown(const Ldi &ldi, std::size_t cover, std::size_t weight, const SampleRange &samples) {
-    double transmittance = 1, sum = 0;
-    for (const std::uint64_t i : samples) {
-        sum += transmittance * double(alpha_at(ldi, weight, i));
-        transmittance *= 1 - double(alpha_at(ldi, cover, i));
-    }
+    double sum = 0;
+    for_shares(ldi, cover, samples,
+               [&](std::uint64_t i, double share) { sum += share * double(alpha_at(ldi, weight, i)); });
     return sum;
 }
 

@@ -254,13 +254,11 @@ ViewSamples::ViewSamples(Ldi &&samples)
         words_[p / 64].shown |= bit;
         if (!holds_parts(samples, alpha, own)) continue;
         words_[p / 64].replaced |= bit;
-        double left = 1;
-        for (const std::uint64_t i : own) {
+        for_shares(samples, alpha, own, [&](std::uint64_t i, double left) {
             replaced_.z.push_back(samples.z[i]);
             if (!samples.z_back.empty()) replaced_.z_back.push_back(samples.z_back[i]);
             replaced_.weight.push_back(std::max(float(left), WarpTuning::estimate_weight));
-            left *= 1 - std::clamp(double(alpha_at(samples, alpha, i)), 0.0, 1.0);
-        }
+        });
         replaced_.begin.push_back(replaced_.z.size());
     }
     count_replaced();

@@ -45,12 +45,8 @@ struct Extremes {
 
 // Whether light from infinity passes all samples of some pixel, by this coverage.
 bool sees_infinity(const Ldi &rows, std::size_t coverage) {
-    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel) {
-        double transmittance = 1;
-        for (const std::uint64_t i : rows.pixel(pixel))
-            transmittance *= 1 - double(std::clamp(alpha_at(rows, coverage, i), 0.0f, 1.0f));
-        if (lets_through(transmittance)) return true;
-    }
+    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel)
+        if (lets_through(rows, coverage, rows.pixel(pixel))) return true;
     return false;
 }
 

@@ -17,10 +17,7 @@ namespace {
 
 constexpr std::size_t pixels_at_once = 4096;
 
-// The samples of a run, front to back, as their indices.
-struct Run {
-    std::uint64_t from, to;
-};
+using Run = SampleRange;
 
 // How many samples each run has, and where the runs of each pixel begin.
 struct Runs {
@@ -140,14 +137,15 @@ public:
         if (ldi_.solid.empty()) return {};
         return for_runs(ldi_, runs_, [&](const Run &run) {
             std::vector<Term> terms;
-            for (std::uint64_t i = run.from; i < run.to; ++i) terms.push_back({i, 1});
+            for (const std::uint64_t i : run) terms.push_back({i, 1});
             return solid_of(ldi_, alpha_, terms);
         });
     }
     std::vector<float> composited_values(const std::vector<float> &values) const {
         return for_runs(ldi_, runs_, [&](const Run &run) {
             double sum = 0;
-            for_shares(run, [&](std::uint64_t i, double share) { sum += share * double(values[i]); });
+            for_shares(ldi_, alpha_, run,
+                       [&](std::uint64_t i, double share) { sum += share * double(values[i]); });
             return float(sum);
         });
     }
@@ -156,20 +154,11 @@ public:
     }
 
 private:
-    // Calls visit(sample, the share of its light that the samples in front of it in the run let through).
-    template <typename Visit>
-    void for_shares(const Run &run, const Visit &visit) const {
-        double transmittance = 1;
-        for (std::uint64_t i = run.from; i < run.to; ++i) {
-            visit(i, transmittance);
-            transmittance *= 1 - double(alpha_at(ldi_, alpha_, i));
-        }
-    }
     // The mean of of(sample), weighted by what each sample shows.
     template <typename Of>
     double mean(const Run &run, const Of &of) const {
         double sum = 0, weight = 0;
-        for_shares(run, [&](std::uint64_t i, double share) {
+        for_shares(ldi_, alpha_, run, [&](std::uint64_t i, double share) {
             const double shown = std::max(share * double(alpha_at(ldi_, alpha_, i)), 1e-12);
             sum += shown * of(i);
             weight += shown;

@@ -310,13 +310,8 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
 namespace {
 
 float farthest_in(const ViewSamples &view, std::size_t alpha, std::size_t pixel) {
-    double left = 1;
-    float farthest = 0;
-    for (const std::uint64_t i : view.pixel(pixel)) {
-        left *= 1 - double(alpha_at(view, alpha, i));
-        farthest = 1 / view.z(i);
-    }
-    return lets_through(left) ? 0 : farthest;
+    const SampleRange samples = view.pixel(pixel);
+    return lets_through(view, alpha, samples) ? 0 : 1 / view.z(samples.to - 1);
 }
 
 } // namespace

@@ -80,12 +80,14 @@ public:
           mattes_(find_mattes(ldi.channels)) {}
 
     void fill_pixel(std::size_t pixel) {
-        if (!lets_light_through(ldi_, pixel)) return;
+        if (!lets_through(ldi_, alpha_, ldi_.pixel(pixel))) return;
         const auto last = last_sample(pixel);
         const Imath::V2i at = ldi_.windows.pixel(pixel);
         const ViewSamples &centre = views_.samples(0);
         const bool in_frame = centre.windows.data.intersects(at);
-        if (!last || (in_frame && lets_light_through(centre, centre.windows.index(at.x, at.y)))) return;
+        if (!last ||
+            (in_frame && lets_through(centre, alpha_, centre.pixel(centre.windows.index(at.x, at.y)))))
+            return;
         std::vector<Part> past;
         const Votes votes = ask(at, *last, past);
         if (lets_through(votes.past)) // more than rounding
@@ -95,13 +97,6 @@ public:
     }
 
 private:
-    template <typename Samples>
-    bool lets_light_through(const Samples &in, std::size_t pixel) const {
-        double left = 1;
-        for (const std::uint64_t i : in.pixel(pixel)) left *= 1 - double(alpha_at(in, alpha_, i));
-        return lets_through(left);
-    }
-
     // The last sample whose coverage is more than rounding.
     std::optional<std::uint64_t> last_sample(std::size_t pixel) const {
         std::optional<std::uint64_t> last;

@@ -31,16 +31,14 @@ Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens
     const auto at_depth = [&](double z, std::uint32_t sample) {
         return Ground{float(perceptive_depth(lens, z)), sample};
     };
-    double transmittance = 1;
-    std::uint32_t last = Filler::nothing;
-    for (const std::uint64_t i : ldi.pixel(pixel)) {
-        const float alpha = std::clamp(alpha_at(ldi, alpha_channel, i), 0.0f, 1.0f);
-        transmittance *= 1 - double(alpha);
-        if (alpha >= half_covered) last = std::uint32_t(i);
-    }
-    if (lets_through(transmittance))
+    const SampleRange samples = ldi.pixel(pixel);
+    if (lets_through(ldi, alpha_channel, samples))
         return known ? at_depth(std::numeric_limits<double>::infinity(), Filler::nothing) : Ground{};
-    return last == Filler::nothing ? Ground{} : at_depth(double(ldi.z[last]), last);
+    Ground last;
+    for (const std::uint64_t i : samples)
+        if (alpha_at(ldi, alpha_channel, i) >= half_covered)
+            last = at_depth(double(ldi.z[i]), std::uint32_t(i));
+    return last;
 }
 
 std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {

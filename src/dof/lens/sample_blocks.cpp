@@ -37,13 +37,9 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
     const std::size_t pixel = ldi.windows.index(at.x, at.y);
     const SampleRange samples = ldi.pixel(pixel);
-    double transmittance = 1;
-    for (const std::uint64_t i : samples) {
-        const float alpha = alpha_of(ldi, alpha_channel, i);
-        transmittance *= 1 - double(alpha);
-        found.push_back(sample_at(ldi, lens, x, y, alpha, i));
-    }
-    if (!lets_through(transmittance) || !known.has(ldi.windows, pixel)) return;
+    for (const std::uint64_t i : samples)
+        found.push_back(sample_at(ldi, lens, x, y, alpha_of(ldi, alpha_channel, i), i));
+    if (!lets_through(ldi, alpha_channel, samples) || !known.has(ldi.windows, pixel)) return;
     const auto add_background = [&](float at_x, float at_y, float coc) {
         found.push_back({at_x, at_y, coc, 0, 1, BlockedSamples::background});
     };
@@ -61,14 +57,10 @@ SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int 
     const std::size_t pixel = ldi.windows.index(at.x, at.y);
     const SampleRange samples = ldi.pixel(pixel);
     SampleCounts counts{0, std::uint32_t(samples.size())};
-    double transmittance = 1;
-    for (const std::uint64_t i : samples) {
-        const float alpha = alpha_of(ldi, alpha_channel, i);
-        transmittance *= 1 - double(alpha);
-        counts.opaque += is_opaque(alpha);
-    }
+    for (const std::uint64_t i : samples) counts.opaque += is_opaque(alpha_at(ldi, alpha_channel, i));
     const std::uint32_t backgrounds =
-        lets_through(transmittance) && known.has(ldi.windows, pixel) ? (samples.empty() ? 1 : 2) : 0;
+        lets_through(ldi, alpha_channel, samples) && known.has(ldi.windows, pixel) ? (samples.empty() ? 1 : 2)
+                                                                                   : 0;
     return {counts.opaque + backgrounds, counts.all + backgrounds};
 }
 

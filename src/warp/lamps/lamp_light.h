@@ -57,13 +57,11 @@ public:
     // Calls visit(sample, light) for the samples of a pixel, front to back.
     template <typename Visit>
     void visit(std::size_t pixel, const Visit &visit) const {
-        double clear = 1;
-        for (const std::uint64_t i : samples_.pixel(pixel)) {
+        for_shares(samples_, alpha_, samples_.pixel(pixel), [&](std::uint64_t i, double clear) {
             double own = 0;
             for (const std::size_t k : rgb_) own += double(value_in(samples_, k, i));
             visit(i, clear * own);
-            clear *= 1 - std::clamp(double(alpha_at(samples_, alpha_, i)), 0.0, 1.0);
-        }
+        });
     }
     double at(std::size_t pixel) const {
         double sum = 0;

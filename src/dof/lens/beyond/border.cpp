@@ -131,12 +131,7 @@ void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     of.behind = width;
 }
 
-bool Border::closed(const SampleRange &range) const {
-    double transmittance = 1;
-    for (const std::uint64_t i : range)
-        transmittance *= 1 - double(std::clamp(alpha_at(ldi_, alpha_, i), 0.0f, 1.0f));
-    return !lets_through(transmittance);
-}
+bool Border::closed(const SampleRange &range) const { return !lets_through(ldi_, alpha_, range); }
 
 // Whether any of these samples belongs to the surface at that perceptive depth.
 bool Border::shows(const SampleRange &range, double there) const {
