@@ -9,13 +9,6 @@ function(run)
     execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The headers of OpenFX with which the effect is built.
-file(READ ${CMAKE_CURRENT_LIST_DIR}/../plugins/openfx/include/LICENSE.md openfx_licence)
-string(REGEX REPLACE "^.*\n(Redistribution and use)" "\\1" openfx_licence "${openfx_licence}")
-string(STRIP "${openfx_licence}" openfx_licence)
-string(REPLACE "\n\n" "\n.\n" openfx_licence "${openfx_licence}")
-string(REPLACE "\n" "\n " openfx_licence " ${openfx_licence}")
-
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     set(root ${CPACK_TEMPORARY_DIRECTORY}/${component}/usr)
     set(doc ${root}/share/doc/${package_${component}})
@@ -37,11 +30,6 @@ Copyright: the sparselens developers
 License: Apache-2.0
  On Debian systems the full text of the license is in
  /usr/share/common-licenses/Apache-2.0
-
-Files: plugins/openfx/include/*
-Copyright: 2003-2021, The Open Effects Association Ltd.
-License: BSD-3-Clause
-${openfx_licence}
 ")
     string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC) # that of SOURCE_DATE_EPOCH, where it is set
     file(WRITE ${doc}/changelog

@@ -19,7 +19,7 @@ need() {
     command -v "$1" >/dev/null || { echo "skipped: $1 is not installed"; exit 77; }
 }
 
-sources() { find src tools lab plugins tests -path plugins/openfx/include -prune -o '(' -name '*.cpp' -o -name '*.c' -o -name '*.h' ')' -print0 | sort -z; }
+sources() { find src tools lab plugins tests '(' -name '*.cpp' -o -name '*.c' -o -name '*.h' ')' -print0 | sort -z; }
 
 configure() {
     tools/install-deps.sh build test lint

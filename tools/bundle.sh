@@ -83,15 +83,13 @@ package_of() {
     dpkg-query -W -f='${Package}\n' libcli11-dev nlohmann-json3-dev libvulkan-dev 2>/dev/null # headers
 } | sed 's/:amd64$//' | sort -u >"$work/packages"
 cp "$here/LICENSE" "$root/licences/sparselens.txt"
-cp "$here/plugins/openfx/include/LICENSE.md" "$root/licences/openfx.txt"
 cp -rL /usr/share/common-licenses "$root/licences/common-licenses"
 while read -r package; do
     cp -L "/usr/share/doc/$package/copyright" "$root/licences/$package.txt" || fail "$package has no licence"
 done <"$work/packages"
 {
-    echo "sparselens $version is under the Apache License 2.0 (sparselens.txt). The effect in OFX is built with the headers of"
-    echo "OpenFX, under the BSD licence (openfx.txt). The archive also holds, unchanged, parts of these packages of Debian, whose"
-    echo "licences are beside this file. Their sources: https://sources.debian.org"
+    echo "sparselens $version is under the Apache License 2.0 (sparselens.txt). The archive also holds, unchanged, parts of these"
+    echo "packages of Debian, whose licences are beside this file. Their sources: https://sources.debian.org"
     echo
     xargs dpkg-query -W -f='${Package} ${Version}, source ${source:Package} ${source:Version}\n' <"$work/packages"
 } >"$root/licences/README.txt"

@@ -1,7 +1,7 @@
 // Describes the effect to a host: contexts, pixels, clips and parameters.
 #pragma once
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 
 namespace sparselens_ofx {
 

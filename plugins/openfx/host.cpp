@@ -14,7 +14,6 @@ const Suite *fetched(OfxHost *host, const char *name, int version) {
 }
 
 constexpr char message_id[] = "sparselens";
-char error_type[] = kOfxMessageError;
 
 } // namespace
 
@@ -86,9 +85,9 @@ OfxParamSetHandle parameters_of(OfxImageEffectHandle effect) {
 void show_error(OfxImageEffectHandle effect, const std::string &why) {
     const Suites &host = suites();
     if (host.lasting && host.lasting->setPersistentMessage)
-        host.lasting->setPersistentMessage(effect, error_type, message_id, "%s", why.c_str());
+        host.lasting->setPersistentMessage(effect, kOfxMessageError, message_id, "%s", why.c_str());
     else if (host.messages && host.messages->message)
-        host.messages->message(effect, error_type, message_id, "%s", why.c_str());
+        host.messages->message(effect, kOfxMessageError, message_id, "%s", why.c_str());
     if (whole_in(host.host, kOfxImageEffectHostPropIsBackground, 0, 0) != 0)
         std::fprintf(stderr, "sparselens: %s\n", why.c_str());
 }

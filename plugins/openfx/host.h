@@ -1,7 +1,7 @@
 // The suites of the host, and the properties that it gives.
 #pragma once
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,7 +1,7 @@
 // The image of a clip at a time. A host's rows go upwards: y is 0 at the lower edge of its picture.
 #pragma once
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 #include "pixel_format.h"
 
 #include <string>

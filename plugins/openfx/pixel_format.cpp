@@ -1,6 +1,6 @@
 #include "pixel_format.h"
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 
 #define IMATH_HALF_NO_LOOKUP_TABLE // so that nothing of Imath is linked
 #include <Imath/half.h>

@@ -1,7 +1,7 @@
 // The actions of an instance of the effect. They return the status of the action, or throw.
 #pragma once
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 
 namespace sparselens_ofx {
 

@@ -1,7 +1,7 @@
 // The parameters of the effect at a time, as settings of dof-gather.
 #pragma once
 
-#include "include/ofxImageEffect.h"
+#include "ofx.h"
 
 #include <map>
 #include <string>

@@ -102,10 +102,7 @@ std::shared_ptr<Image> image_of(const Canvas &canvas) {
     image->memory.assign(row * std::size_t(canvas.height), 0x3f);
     Properties &properties = image->properties;
     const int bounds[] = {canvas.x1, canvas.y1, canvas.x1 + canvas.width, canvas.y1 + canvas.height};
-    for (int i = 0; i < 4; ++i) {
-        properties.set<int>(kOfxImagePropBounds, bounds[i], i);
-        properties.set<int>(kOfxImagePropRegionOfDefinition, bounds[i], i);
-    }
+    for (int i = 0; i < 4; ++i) properties.set<int>(kOfxImagePropBounds, bounds[i], i);
     properties.set<int>(kOfxImagePropRowBytes, canvas.downwards ? -int(row) : int(row));
     properties.set<void *>(kOfxImagePropData, image->pixel(canvas.x1, canvas.y1));
     properties.set<std::string>(kOfxImageEffectPropPixelDepth, canvas.depth);

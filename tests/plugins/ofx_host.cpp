@@ -66,7 +66,6 @@ public:
         Properties in;
         in.set<std::string>(kOfxImageEffectPropContext, context);
         require(kOfxImageEffectActionDescribeInContext, &effect, &in, nullptr);
-        effect.properties.set<std::string>(kOfxImageEffectPropContext, context);
         return effect;
     }
 

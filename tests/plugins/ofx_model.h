@@ -2,7 +2,7 @@
 // to one of these.
 #pragma once
 
-#include "../../plugins/openfx/include/ofxImageEffect.h"
+#include "../../plugins/openfx/ofx.h"
 
 #include <cstddef>
 #include <functional>
@@ -45,7 +45,6 @@ struct Parameter {
 };
 
 struct ParameterSet {
-    Properties properties = {};
     std::map<std::string, std::unique_ptr<Parameter>> parameters = {};
     std::vector<std::string> order = {};
 };
@@ -79,8 +78,6 @@ struct Messages {
     std::string last = {};
 };
 Messages &messages();
-
-const void *property_suite();
 
 // The host with its suites. `properties` says what it can do.
 OfxHost *make_host(Properties &properties);

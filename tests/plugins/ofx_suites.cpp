@@ -1,11 +1,10 @@
-// The suites of the host: parameters, image effects, memory, threads, messages.
+// The suites of the host: properties, parameters, image effects, messages. They have what the effect calls.
 #include "ofx_model.h"
 
 #include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <thread>
+#include <type_traits>
 
 namespace ofx_host {
 
@@ -35,9 +34,43 @@ Messages &messages() {
 
 namespace {
 
+Properties &properties_of(OfxPropertySetHandle handle) { return *reinterpret_cast<Properties *>(handle); }
 Effect &effect_of(OfxImageEffectHandle handle) { return *reinterpret_cast<Effect *>(handle); }
 ParameterSet &set_of(OfxParamSetHandle handle) { return *reinterpret_cast<ParameterSet *>(handle); }
 Clip &clip_of(OfxImageClipHandle handle) { return *reinterpret_cast<Clip *>(handle); }
+
+// Properties
+
+template <typename T, typename Given>
+OfxStatus set_one(OfxPropertySetHandle set, const char *name, int index, Given value) {
+    properties_of(set).set<T>(name, T(value), index);
+    return kOfxStatOK;
+}
+template <typename T, typename Given>
+OfxStatus get_one(OfxPropertySetHandle set, const char *name, int index, Given *value) {
+    auto &values = properties_of(set).values;
+    const auto there = values.find(name);
+    if (there == values.end() || std::size_t(index) >= there->second.size()) return kOfxStatErrUnknown;
+    T *found = std::get_if<T>(&there->second[std::size_t(index)]);
+    if (!found) return kOfxStatErrUnknown;
+    if constexpr (std::is_same_v<T, std::string>)
+        *value = found->data();
+    else
+        *value = *found;
+    return kOfxStatOK;
+}
+
+const OfxPropertySuiteV1 *property_suite() {
+    static OfxPropertySuiteV1 suite{};
+    suite.propSetString = set_one<std::string, const char *>;
+    suite.propSetDouble = set_one<double, double>;
+    suite.propSetInt = set_one<int, int>;
+    suite.propGetPointer = get_one<void *, void *>;
+    suite.propGetString = get_one<std::string, char *>;
+    suite.propGetDouble = get_one<double, double>;
+    suite.propGetInt = get_one<int, int>;
+    return &suite;
+}
 
 // Parameters
 
@@ -47,58 +80,35 @@ OfxStatus define_parameter(OfxParamSetHandle set, const char *type, const char *
     if (parameter) return kOfxStatErrExists;
     parameter = std::make_unique<Parameter>(Parameter{type});
     set_of(set).order.emplace_back(name);
-    if (properties) *properties = parameter->properties.handle();
+    *properties = parameter->properties.handle();
     return kOfxStatOK;
 }
 OfxStatus parameter_handle(OfxParamSetHandle set, const char *name, OfxParamHandle *handle,
-                           OfxPropertySetHandle *properties) {
+                           OfxPropertySetHandle *) {
     const auto there = set_of(set).parameters.find(name);
     if (there == set_of(set).parameters.end()) return kOfxStatErrUnknown;
     *handle = reinterpret_cast<OfxParamHandle>(there->second.get());
-    if (properties) *properties = there->second->properties.handle();
     return kOfxStatOK;
 }
-OfxStatus set_properties(OfxParamSetHandle set, OfxPropertySetHandle *properties) {
-    *properties = set_of(set).properties.handle();
-    return kOfxStatOK;
-}
-OfxStatus parameter_properties(OfxParamHandle handle, OfxPropertySetHandle *properties) {
-    *properties = reinterpret_cast<Parameter *>(handle)->properties.handle();
-    return kOfxStatOK;
-}
-OfxStatus value_at(OfxParamHandle handle, OfxTime time, va_list where) {
+OfxStatus value_at_time(OfxParamHandle handle, OfxTime time, ...) {
     Parameter &parameter = *reinterpret_cast<Parameter *>(handle);
+    va_list where;
+    va_start(where, time);
     if (parameter.type == kOfxParamTypeString)
         *va_arg(where, char **) = parameter.text.data();
     else if (parameter.type == kOfxParamTypeDouble)
         *va_arg(where, double *) = parameter.number_at(time);
     else
         *va_arg(where, int *) = int(parameter.number_at(time));
+    va_end(where);
     return kOfxStatOK;
-}
-OfxStatus get_value(OfxParamHandle handle, ...) {
-    va_list where;
-    va_start(where, handle);
-    const OfxStatus status = value_at(handle, 0, where);
-    va_end(where);
-    return status;
-}
-OfxStatus get_value_at_time(OfxParamHandle handle, OfxTime time, ...) {
-    va_list where;
-    va_start(where, time);
-    const OfxStatus status = value_at(handle, time, where);
-    va_end(where);
-    return status;
 }
 
 const OfxParameterSuiteV1 *parameter_suite() {
     static OfxParameterSuiteV1 suite{};
     suite.paramDefine = define_parameter;
     suite.paramGetHandle = parameter_handle;
-    suite.paramSetGetPropertySet = set_properties;
-    suite.paramGetPropertySet = parameter_properties;
-    suite.paramGetValue = get_value;
-    suite.paramGetValueAtTime = get_value_at_time;
+    suite.paramGetValueAtTime = value_at_time;
     return &suite;
 }
 
@@ -126,10 +136,6 @@ OfxStatus clip_handle(OfxImageEffectHandle effect, const char *name, OfxImageCli
     if (properties) *properties = there->second->properties.handle();
     return kOfxStatOK;
 }
-OfxStatus clip_properties(OfxImageClipHandle clip, OfxPropertySetHandle *properties) {
-    *properties = clip_of(clip).properties.handle();
-    return kOfxStatOK;
-}
 OfxStatus clip_image(OfxImageClipHandle clip, OfxTime, const OfxRectD *, OfxPropertySetHandle *image) {
     if (!clip_of(clip).image) return kOfxStatFailed;
     *image = clip_of(clip).image->properties.handle();
@@ -151,7 +157,6 @@ const OfxImageEffectSuiteV1 *effect_suite() {
     suite.getParamSet = effect_parameters;
     suite.clipDefine = define_clip;
     suite.clipGetHandle = clip_handle;
-    suite.clipGetPropertySet = clip_properties;
     suite.clipGetImage = clip_image;
     suite.clipReleaseImage = release_image;
     suite.clipGetRegionOfDefinition = clip_region;
@@ -159,50 +164,23 @@ const OfxImageEffectSuiteV1 *effect_suite() {
     return &suite;
 }
 
-// Memory, threads, messages
+// Messages
 
-OfxStatus allocate(void *, std::size_t bytes, void **data) {
-    *data = std::malloc(bytes);
-    return *data ? kOfxStatOK : kOfxStatErrMemory;
-}
-OfxStatus give_back(void *data) {
-    std::free(data);
-    return kOfxStatOK;
-}
-const OfxMemorySuiteV1 memory_suite{allocate, give_back};
-
-OfxStatus on_threads(OfxThreadFunctionV1 work, unsigned count, void *argument) {
-    std::vector<std::thread> threads;
-    for (unsigned i = 0; i < count; ++i) threads.emplace_back(work, i, count, argument);
-    for (std::thread &thread : threads) thread.join();
-    return kOfxStatOK;
-}
-const OfxMultiThreadSuiteV1 *thread_suite() {
-    static OfxMultiThreadSuiteV1 suite{};
-    suite.multiThread = on_threads;
-    return &suite;
-}
-
-OfxStatus show(const char *format, va_list arguments) {
+OfxStatus show_message(void *, const char *, const char *, const char *format, ...) {
     char text[4096];
+    va_list arguments;
+    va_start(arguments, format);
     std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
     const std::lock_guard lock(messages().mutex);
     messages().last = text;
     return kOfxStatOK;
-}
-OfxStatus show_message(void *, const char *, const char *, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const OfxStatus status = show(format, arguments);
-    va_end(arguments);
-    return status;
 }
 OfxStatus clear_message(void *) {
     const std::lock_guard lock(messages().mutex);
     messages().last.clear();
     return kOfxStatOK;
 }
-const OfxMessageSuiteV1 message_suite{show_message};
 const OfxMessageSuiteV2 lasting_suite{show_message, show_message, clear_message};
 
 const void *fetch(OfxPropertySetHandle, const char *name, int version) {
@@ -210,9 +188,6 @@ const void *fetch(OfxPropertySetHandle, const char *name, int version) {
     if (is(kOfxPropertySuite, 1)) return property_suite();
     if (is(kOfxParameterSuite, 1)) return parameter_suite();
     if (is(kOfxImageEffectSuite, 1)) return effect_suite();
-    if (is(kOfxMemorySuite, 1)) return &memory_suite;
-    if (is(kOfxMultiThreadSuite, 1)) return thread_suite();
-    if (is(kOfxMessageSuite, 1)) return &message_suite;
     if (is(kOfxMessageSuite, 2)) return &lasting_suite;
     return nullptr;
 }

@@ -17,7 +17,7 @@ facts() {
     find src tools lab plugins -path lab/tests -prune -o -type f -printf 'file %p\n' | sort
     { grep -rnoE --include=*.cpp --include=*.h '\b(gather_picture|gather_rows|lens_gather|make_plan|with_lens|choose_windows|border_reach)\(|->(gather|light)\(' src/python tools || true; } |
         sed -E 's/^([^:]*):([0-9]*):(.*)\($/call \1 \2 \3/'
-    find src tools lab plugins '(' -path lab/tests -o -path plugins/openfx/include ')' -prune -o '(' -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.cpp.in' ')' -print | sort | xargs grep -oH '^#include "[^"]*"' |
+    find src tools lab plugins -path lab/tests -prune -o '(' -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.cpp.in' ')' -print | sort | xargs grep -oH '^#include "[^"]*"' |
         sed -E 's/^([^:]*):#include "(.*)"/include \1 \2/'
 }
 

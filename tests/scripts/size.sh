@@ -2,7 +2,7 @@
 # Measures the size of the project. First the product: src and tools, without the laboratory: lines and files of C++,
 # GLSL and templates of either, includes of own files, and arrows: pairs of folders in src and tools of which one
 # includes the other. Then lines: the product's other code (JavaScript, CSS, HTML, Python, shell), the laboratory, all
-# tests, plugins, share, and documents. Data, results and headers of OpenFX do not count.
+# tests, plugins, share, and documents. Data and results do not count.
 #
 #   tests/scripts/size.sh [COMMIT]     of the working tree, or of a commit
 #   tests/scripts/size.sh --most       fails if a figure is above its limit in docs/code.md ("Budget")
@@ -26,7 +26,7 @@ lines() {
     shift 2
     printf '%-9s ' "$name"
     { find "$@" -type f -regextype posix-extended -regex ".*(\.($extensions)|/[^.]+)" ! -path '*/corpus/*' ! -path '*/results/*' \
-        ! -path '*/openfx/include/*' -exec cat {} + 2>/dev/null || true; } | wc -l
+        -exec cat {} + 2>/dev/null || true; } | wc -l
 }
 
 figures() {
