@@ -20,7 +20,7 @@ double sparselens_seconds_now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-void sparselens_say(sparselens_answer *answer, const char *format, ...) {
+outcome sparselens_say(sparselens_answer *answer, const char *format, ...) {
     char text[1024];
     va_list arguments;
     va_start(arguments, format);
@@ -29,6 +29,7 @@ void sparselens_say(sparselens_answer *answer, const char *format, ...) {
     free(answer->text);
     answer->text = strdup(text);
     answer->status = 0;
+    return no_answer;
 }
 
 /* Waits until the socket can be read or written. Returns whether it can before the deadline. */
@@ -54,10 +55,8 @@ outcome sparselens_send_line(int socket, const char *name, const char *request, 
         if (n > 0) {
             sent += (size_t)n;
         } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-            if (!ready(socket, POLLOUT, deadline)) {
-                sparselens_say(answer, "%s: does not take the request in time", name);
-                return no_answer;
-            }
+            if (!ready(socket, POLLOUT, deadline))
+                return sparselens_say(answer, "%s: does not take the request in time", name);
         } else if (errno != EINTR) {
             return gatherer_gone;
         }
@@ -80,14 +79,9 @@ outcome sparselens_receive_line(int socket, const char *name, double deadline, l
                                 sparselens_answer *answer) {
     line->filled = 0;
     for (;;) {
-        if (!make_room(line)) {
-            sparselens_say(answer, "%s: its answer is too long", name);
-            return no_answer;
-        }
-        if (!ready(socket, POLLIN, deadline)) {
-            sparselens_say(answer, "%s: does not answer in time", name);
-            return no_answer;
-        }
+        if (!make_room(line)) return sparselens_say(answer, "%s: its answer is too long", name);
+        if (!ready(socket, POLLIN, deadline))
+            return sparselens_say(answer, "%s: does not answer in time", name);
         char *to = line->text + line->filled;
         const ssize_t n = recv(socket, to, line->room - line->filled - 1, MSG_DONTWAIT);
         if (n == 0) return gatherer_gone;
@@ -129,8 +123,7 @@ outcome sparselens_put_pixels(int memory, const void *pixels, size_t bytes, spar
             failed = errno != EINTR;
     }
     if (!failed) return got_answer;
-    sparselens_say(answer, "cannot share %zu bytes of pixels: %s", bytes, strerror(errno));
-    return no_answer;
+    return sparselens_say(answer, "cannot share %zu bytes of pixels: %s", bytes, strerror(errno));
 }
 
 /* By copies: a file that the other side cuts off cannot raise a signal. */

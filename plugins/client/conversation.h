@@ -17,11 +17,9 @@ typedef struct {
 /* Seconds of a clock that only goes forward; deadlines are given by it. */
 double sparselens_seconds_now(void);
 
-/* Makes the text of the answer, with the status 0. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void sparselens_say(sparselens_answer *answer, const char *format, ...);
+/* Makes the text of the answer, with the status 0. Returns no_answer. */
+outcome sparselens_say(sparselens_answer *answer, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Sends a request and its end of line. */
 outcome sparselens_send_line(int socket, const char *name, const char *request, double deadline,

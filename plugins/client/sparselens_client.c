@@ -59,23 +59,17 @@ static outcome receive(sparselens_client *client, double deadline, sparselens_an
 /* Starts the gatherer and takes its greeting. */
 static outcome start(sparselens_client *client, sparselens_answer *answer) {
     const int failed = sparselens_gatherer_start(&client->gatherer, client->program);
-    if (failed) {
-        sparselens_say(answer, "cannot start %s: %s", client->program, strerror(failed));
-        return no_answer;
-    }
+    if (failed) return sparselens_say(answer, "cannot start %s: %s", client->program, strerror(failed));
     const outcome greeted = receive(client, sparselens_seconds_now() + seconds_to_start, answer);
-    if (greeted == gatherer_gone) {
-        sparselens_say(answer, "%s: ends at once; it must be the dof-view of this version of sparselens",
-                       client->program);
-        return no_answer;
-    }
+    if (greeted == gatherer_gone)
+        return sparselens_say(answer,
+                              "%s: ends at once; it must be the dof-view of this version of sparselens",
+                              client->program);
     if (greeted == got_answer &&
-        (!sparselens_parse_answer(client->line.text, answer) || !is_known(answer->text))) {
-        sparselens_say(answer,
-                       "%s: is not of the version that this program knows; install both from one sparselens",
-                       client->program);
-        return no_answer;
-    }
+        (!sparselens_parse_answer(client->line.text, answer) || !is_known(answer->text)))
+        return sparselens_say(
+            answer, "%s: is not of the version that this program knows; install both from one sparselens",
+            client->program);
     return greeted;
 }
 

@@ -13,7 +13,13 @@ const Suite *fetched(OfxHost *host, const char *name, int version) {
     return static_cast<const Suite *>(host->fetchSuite(host->host, name, version));
 }
 
-constexpr char message_id[] = "sparselens";
+// What a function of the suite of properties gives; `otherwise` if it fails.
+template <typename T>
+T value_in(OfxStatus (*get)(OfxPropertySetHandle, const char *, int, T *), OfxPropertySetHandle set,
+           const char *name, int index, T otherwise) {
+    T value = otherwise;
+    return set && get(set, name, index, &value) == kOfxStatOK ? value : otherwise;
+}
 
 } // namespace
 
@@ -31,35 +37,24 @@ bool fetch_suites(OfxHost *host) {
 }
 
 std::string text_in(OfxPropertySetHandle set, const char *name, const std::string &otherwise) {
-    char *value = nullptr;
-    if (!set || suites().properties->propGetString(set, name, 0, &value) != kOfxStatOK || !value)
-        return otherwise;
-    return value;
+    const char *value = value_in<char *>(suites().properties->propGetString, set, name, 0, nullptr);
+    return value ? value : otherwise;
 }
 
 int whole_in(OfxPropertySetHandle set, const char *name, int index, int otherwise) {
-    int value = otherwise;
-    if (!set || suites().properties->propGetInt(set, name, index, &value) != kOfxStatOK) return otherwise;
-    return value;
+    return value_in(suites().properties->propGetInt, set, name, index, otherwise);
 }
 
 double number_in(OfxPropertySetHandle set, const char *name, int index, double otherwise) {
-    double value = otherwise;
-    if (!set || suites().properties->propGetDouble(set, name, index, &value) != kOfxStatOK) return otherwise;
-    return value;
+    return value_in(suites().properties->propGetDouble, set, name, index, otherwise);
 }
 
 void *pointer_in(OfxPropertySetHandle set, const char *name) {
-    void *value = nullptr;
-    if (!set || suites().properties->propGetPointer(set, name, 0, &value) != kOfxStatOK) return nullptr;
-    return value;
+    return value_in<void *>(suites().properties->propGetPointer, set, name, 0, nullptr);
 }
 
-void set(OfxPropertySetHandle set, const char *name, const char *value, int index) {
-    if (set) suites().properties->propSetString(set, name, index, value);
-}
-void set(OfxPropertySetHandle to, const char *name, const std::string &value, int index) {
-    set(to, name, value.c_str(), index);
+void set(OfxPropertySetHandle set, const char *name, const std::string &value, int index) {
+    if (set) suites().properties->propSetString(set, name, index, value.c_str());
 }
 void set(OfxPropertySetHandle set, const char *name, int value, int index) {
     if (set) suites().properties->propSetInt(set, name, index, value);
@@ -84,10 +79,9 @@ OfxParamSetHandle parameters_of(OfxImageEffectHandle effect) {
 
 void show_error(OfxImageEffectHandle effect, const std::string &why) {
     const Suites &host = suites();
-    if (host.lasting && host.lasting->setPersistentMessage)
-        host.lasting->setPersistentMessage(effect, kOfxMessageError, message_id, "%s", why.c_str());
-    else if (host.messages && host.messages->message)
-        host.messages->message(effect, kOfxMessageError, message_id, "%s", why.c_str());
+    auto show = host.messages ? host.messages->message : nullptr;
+    if (host.lasting && host.lasting->setPersistentMessage) show = host.lasting->setPersistentMessage;
+    if (show) show(effect, kOfxMessageError, "sparselens", "%s", why.c_str());
     if (whole_in(host.host, kOfxImageEffectHostPropIsBackground, 0, 0) != 0)
         std::fprintf(stderr, "sparselens: %s\n", why.c_str());
 }

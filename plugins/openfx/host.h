@@ -29,7 +29,6 @@ void *pointer_in(OfxPropertySetHandle set, const char *name);
 
 // Sets a property. A host that does not know it ignores it.
 void set(OfxPropertySetHandle set, const char *name, const std::string &value, int index = 0);
-void set(OfxPropertySetHandle set, const char *name, const char *value, int index = 0);
 void set(OfxPropertySetHandle set, const char *name, int value, int index = 0);
 void set(OfxPropertySetHandle set, const char *name, double value, int index = 0);
 

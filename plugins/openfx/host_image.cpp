@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 
 namespace sparselens_ofx {
 
@@ -29,36 +30,35 @@ bool is_connected(OfxImageEffectHandle effect, const char *name) {
     return clip_of(effect, name, &properties) && whole_in(properties, kOfxImageClipPropConnected, 0, 0) != 0;
 }
 
-HostImage::HostImage(OfxImageEffectHandle effect, const char *name, double time) {
+HostImage host_image(OfxImageEffectHandle effect, const char *name, double time) {
     const OfxImageClipHandle clip = clip_of(effect, name);
-    if (!clip || suites().effects->clipGetImage(clip, time, nullptr, &image_) != kOfxStatOK || !image_)
+    OfxPropertySetHandle given = nullptr;
+    if (!clip || suites().effects->clipGetImage(clip, time, nullptr, &given) != kOfxStatOK || !given)
         throw HostError(std::string("the host has no image of the clip ") + name);
-    const std::string depth = text_in(image_, kOfxImageEffectPropPixelDepth);
-    const std::string components = text_in(image_, kOfxImageEffectPropComponents);
+    HostImage image;
+    image.lent.reset(given, suites().effects->clipReleaseImage);
+    const std::string depth = text_in(given, kOfxImageEffectPropPixelDepth);
+    const std::string components = text_in(given, kOfxImageEffectPropComponents);
     const auto format = pixel_format(depth, components);
-    data_ = static_cast<char *>(pointer_in(image_, kOfxImagePropData));
-    bounds_ = rectangle_in(image_, kOfxImagePropBounds);
-    row_bytes_ = whole_in(image_, kOfxImagePropRowBytes, 0, 0);
+    image.data = static_cast<char *>(pointer_in(given, kOfxImagePropData));
+    image.bounds = rectangle_in(given, kOfxImagePropBounds);
+    image.row_bytes = whole_in(given, kOfxImagePropRowBytes, 0, 0);
     // Some hosts name another depth than that of their memory.
-    const bool fits =
-        format && bounds_.width() * std::int64_t(format->bytes()) <= std::abs(std::int64_t{row_bytes_});
-    if (!data_ || !fits) {
-        suites().effects->clipReleaseImage(image_);
+    if (!image.data || !format ||
+        image.bounds.width() * std::int64_t(format->bytes()) > std::abs(std::int64_t{image.row_bytes}))
         throw HostError(std::string("the clip ") + name +
                         " has pixels that are unknown, or rows that are too short: " + depth + " " +
                         components);
-    }
-    format_ = *format;
-    unpremultiplied_ = text_in(image_, kOfxImageEffectPropPreMultiplication) == kOfxImageUnPreMultiplied;
-    const double aspect = number_in(image_, kOfxImagePropPixelAspectRatio, 0, 1);
-    if (aspect > 0) pixel_aspect_ = aspect;
+    image.format = *format;
+    image.unpremultiplied = text_in(given, kOfxImageEffectPropPreMultiplication) == kOfxImageUnPreMultiplied;
+    const double aspect = number_in(given, kOfxImagePropPixelAspectRatio, 0, 1);
+    if (aspect > 0) image.pixel_aspect = aspect;
+    return image;
 }
 
-HostImage::~HostImage() { suites().effects->clipReleaseImage(image_); }
-
 char *HostImage::pixel(int x, int y) const {
-    return data_ + std::ptrdiff_t(y - bounds_.y1) * row_bytes_ +
-           std::ptrdiff_t(x - bounds_.x1) * std::ptrdiff_t(format_.bytes());
+    return data + std::ptrdiff_t(y - bounds.y1) * row_bytes +
+           std::ptrdiff_t(x - bounds.x1) * std::ptrdiff_t(format.bytes());
 }
 
 } // namespace sparselens_ofx

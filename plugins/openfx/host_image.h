@@ -4,7 +4,7 @@
 #include "ofx.h"
 #include "pixel_format.h"
 
-#include <string>
+#include <memory>
 
 namespace sparselens_ofx {
 
@@ -20,31 +20,20 @@ Rectangle intersection(const Rectangle &a, const Rectangle &b);
 // The four numbers of a property.
 Rectangle rectangle_in(OfxPropertySetHandle set, const char *name);
 
-class HostImage {
-public:
-    // Throws HostError if the host has no such image, or pixels that this plug-in does not know.
-    HostImage(OfxImageEffectHandle effect, const char *clip, double time);
-    ~HostImage();
-    HostImage(const HostImage &) = delete;
-    HostImage &operator=(const HostImage &) = delete;
+struct HostImage {
+    std::shared_ptr<OfxPropertySetStruct> lent; // the host's properties, given back with the last copy
+    Rectangle bounds;                           // of the pixels that are there
+    PixelFormat format;
+    bool unpremultiplied = false;
+    double pixel_aspect = 1;
+    char *data = nullptr; // of the pixel in the lower left corner of the bounds
+    int row_bytes = 0;    // from a row to the one above it; below 0 where that lies before it in memory
 
-    const Rectangle &bounds() const { return bounds_; } // of the pixels that are there
-    const PixelFormat &format() const { return format_; }
-    bool is_unpremultiplied() const { return unpremultiplied_; }
-    double pixel_aspect() const { return pixel_aspect_; }
-
-    // A pixel within the bounds. The address of a row may lie above or below that of the next one.
-    char *pixel(int x, int y) const;
-
-private:
-    OfxPropertySetHandle image_ = nullptr;
-    Rectangle bounds_;
-    PixelFormat format_;
-    char *data_ = nullptr;
-    int row_bytes_ = 0;
-    bool unpremultiplied_ = false;
-    double pixel_aspect_ = 1;
+    char *pixel(int x, int y) const; // within the bounds
 };
+
+// Throws HostError if the host has no such image, or pixels that this plug-in does not know.
+HostImage host_image(OfxImageEffectHandle effect, const char *clip, double time);
 
 // The clip of that name; null if the host has none. `properties` receives its properties.
 OfxImageClipHandle clip_of(OfxImageEffectHandle effect, const char *name,

@@ -15,20 +15,13 @@ namespace sparselens_ofx {
 namespace {
 
 // memcpy: rows of a host need not be aligned.
-template <typename Stored, typename Convert>
-void read_all(const void *from, int count, float *to, const Convert &convert) {
-    for (int i = 0; i < count; ++i) {
-        Stored stored;
-        std::memcpy(&stored, static_cast<const char *>(from) + std::size_t(i) * sizeof stored, sizeof stored);
-        to[i] = convert(stored);
-    }
-}
-
-template <typename Stored, typename Convert>
-void write_all(const float *from, int count, void *to, const Convert &convert) {
-    for (int i = 0; i < count; ++i) {
-        const Stored stored = convert(from[i]);
-        std::memcpy(static_cast<char *>(to) + std::size_t(i) * sizeof stored, &stored, sizeof stored);
+template <typename From, typename To, typename Convert>
+void convert_all(const void *from, int count, void *to, const Convert &convert) {
+    for (std::size_t i = 0; i < std::size_t(count); ++i) {
+        From one;
+        std::memcpy(&one, static_cast<const char *>(from) + i * sizeof one, sizeof one);
+        const To converted = convert(one);
+        std::memcpy(static_cast<char *>(to) + i * sizeof converted, &converted, sizeof converted);
     }
 }
 
@@ -68,10 +61,11 @@ std::optional<PixelFormat> pixel_format(const std::string &depth, const std::str
 void read_pixel(const PixelFormat &format, const void *from, float *to) {
     const int count = format.components;
     switch (format.depth) {
-    case Depth::byte: return read_all<std::uint8_t>(from, count, to, [](auto v) { return float(v) / 255; });
+    case Depth::byte:
+        return convert_all<std::uint8_t, float>(from, count, to, [](auto v) { return float(v) / 255; });
     case Depth::whole_short:
-        return read_all<std::uint16_t>(from, count, to, [](auto v) { return float(v) / 65535; });
-    case Depth::half: return read_all<std::uint16_t>(from, count, to, imath_half_to_float);
+        return convert_all<std::uint16_t, float>(from, count, to, [](auto v) { return float(v) / 65535; });
+    case Depth::half: return convert_all<std::uint16_t, float>(from, count, to, imath_half_to_float);
     case Depth::full: std::memcpy(to, from, format.bytes());
     }
 }
@@ -79,9 +73,10 @@ void read_pixel(const PixelFormat &format, const void *from, float *to) {
 void write_pixel(const PixelFormat &format, const float *from, void *to) {
     const int count = format.components;
     switch (format.depth) {
-    case Depth::byte: return write_all<std::uint8_t>(from, count, to, rounded<std::uint8_t>);
-    case Depth::whole_short: return write_all<std::uint16_t>(from, count, to, rounded<std::uint16_t>);
-    case Depth::half: return write_all<std::uint16_t>(from, count, to, imath_float_to_half);
+    case Depth::byte: return convert_all<float, std::uint8_t>(from, count, to, rounded<std::uint8_t>);
+    case Depth::whole_short:
+        return convert_all<float, std::uint16_t>(from, count, to, rounded<std::uint16_t>);
+    case Depth::half: return convert_all<float, std::uint16_t>(from, count, to, imath_float_to_half);
     case Depth::full: std::memcpy(to, from, format.bytes());
     }
 }

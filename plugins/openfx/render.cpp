@@ -94,8 +94,8 @@ private:
 // Converts a pixel of the picture, which is premultiplied, to the components of the image.
 std::array<float, 4> in_image(std::array<float, 4> rgba, const HostImage &image) {
     const float alpha = rgba[3];
-    if (image.format().components == 1) return {alpha};
-    if (image.format().components == 4 && image.is_unpremultiplied() && alpha > 0)
+    if (image.format.components == 1) return {alpha};
+    if (image.format.components == 4 && image.unpremultiplied && alpha > 0)
         for (int k = 0; k < 3; ++k) rgba[std::size_t(k)] /= alpha;
     return rgba;
 }
@@ -104,7 +104,7 @@ void write_window(const Pixels &pixels, const Place &place, const Rectangle &win
     for (int y = window.y1; y < window.y2; ++y) {
         const int row = place.row(y);
         for (int x = window.x1; x < window.x2; ++x)
-            write_pixel(image.format(), in_image(pixels.at(place.column(x), row), image).data(),
+            write_pixel(image.format, in_image(pixels.at(place.column(x), row), image).data(),
                         image.pixel(x, y));
     }
 }
@@ -128,13 +128,13 @@ void set_region(OfxPropertySetHandle result, const std::string &name, const OfxR
 OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle arguments) {
     const double time = number_in(arguments, kOfxPropTime, 0, 0);
     const Scale scale = scale_in(arguments);
-    const HostImage image(effect, output_clip, time);
+    const HostImage image = host_image(effect, output_clip, time);
     const Rectangle window =
-        intersection(rectangle_in(arguments, kOfxImageEffectPropRenderWindow), image.bounds());
+        intersection(rectangle_in(arguments, kOfxImageEffectPropRenderWindow), image.bounds);
     if (window.is_empty() || suites().effects->abort(effect)) return kOfxStatOK;
     const std::string ldi = text_at(effect, ldi_parameter, time);
     Question question = question_at(effect, time, ldi);
-    question.shown = image.format().is_whole();
+    question.shown = image.format.is_whole();
     // The questions of one render follow each other, so that the gatherer does not read two LDIs by turns.
     static std::mutex turn;
     const std::lock_guard lock(turn);
