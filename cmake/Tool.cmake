@@ -1,29 +1,29 @@
-# Each tool prints its own manual page and completions, from the options it takes; they lie where man and the shells look.
+# Each tool has a manual page, which tools/man-page.sh makes by help2man, and a completion for bash.
 #
 # sparselens_tool(NAME LIBRARY [COMPONENT]): the tool NAME, from NAME.cpp, of what it shares with others; the component it is
 # installed with, if it is.
+find_program(HELP2MAN help2man)
+if(NOT HELP2MAN)
+    message(STATUS "help2man is not installed, so the tools have no manual pages")
+endif()
+
 function(sparselens_tool name library)
-    set(man_pages man/man1)
-    set(bash_completions bash-completion/completions)
-    set(zsh_completions zsh/site-functions)
-    set(fish_completions fish/vendor_completions.d)
-    set(share ${CMAKE_BINARY_DIR}/share)
-    file(MAKE_DIRECTORY ${share}/${man_pages} ${share}/${bash_completions} ${share}/${zsh_completions} ${share}/${fish_completions})
+    set(pages ${CMAKE_BINARY_DIR}/share/man/man1)
+    set(make_page ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tools/man-page.sh)
     add_executable(${name} ${name}.cpp)
     target_link_libraries(${name} PRIVATE ${library} sparselens_flags sparselens_cold)
-    add_custom_command(TARGET ${name} POST_BUILD
-        COMMAND ${name} --man > ${share}/${man_pages}/${name}.1
-        COMMAND ${name} --completion bash > ${share}/${bash_completions}/${name}
-        COMMAND ${name} --completion zsh > ${share}/${zsh_completions}/_${name}
-        COMMAND ${name} --completion fish > ${share}/${fish_completions}/${name}.fish
-        VERBATIM)
+    if(HELP2MAN)
+        file(MAKE_DIRECTORY ${pages})
+        add_custom_command(TARGET ${name} POST_BUILD COMMAND ${make_page} $<TARGET_FILE:${name}> > ${pages}/${name}.1 VERBATIM)
+        set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS ${make_page})
+    endif()
     if(ARGC EQUAL 2)
         return()
     endif()
     set(component ${ARGV2})
     install(TARGETS ${name} COMPONENT ${component})
-    install(FILES ${share}/${man_pages}/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
-    install(FILES ${share}/${bash_completions}/${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/${bash_completions} COMPONENT ${component})
-    install(FILES ${share}/${zsh_completions}/_${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/${zsh_completions} COMPONENT ${component})
-    install(FILES ${share}/${fish_completions}/${name}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/${fish_completions} COMPONENT ${component})
+    install(FILES ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tools/completion.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${name} COMPONENT ${component})
+    if(HELP2MAN)
+        install(FILES ${pages}/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+    endif()
 endfunction()

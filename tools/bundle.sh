@@ -41,7 +41,7 @@ modules=$root/$(cached CMAKE_INSTALL_LIBDIR)/sparselens
 [ -s "$modules/sparselens-oiio.so" ] || fail "the installation has no sparselens-oiio.so"
 install -s "$png" "$modules/sparselens-oiio.so"
 rm -rf "$modules/openimageio" # a plug-in belongs to the OpenImageIO of the program that loads it
-find "$root" -name 'dof-accumulate*' -o -name 'dof-report*' -o -name _dof-accumulate -o -name _dof-report | xargs -r rm
+find "$root" -name 'dof-accumulate*' -o -name 'dof-report*' | xargs -r rm
 mkdir -p "$root/libexec" "$root/licences"
 mv "$root"/bin/* "$root/libexec/"
 

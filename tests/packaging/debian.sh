@@ -34,8 +34,7 @@ done
 expected=$(cd "$bin" && ls -d ldi-* dof-* | grep -vx dof-stress) # a test program
 [ "$(ls "$root/usr/bin")" = "$(sort <<<"$expected")" ] || fail "installed are $(ls "$root/usr/bin" | xargs), not $(xargs <<<"$expected")"
 for name in $expected; do
-    for file in bin/$name share/man/man1/$name.1.gz share/bash-completion/completions/$name share/zsh/site-functions/_$name \
-        share/fish/vendor_completions.d/$name.fish; do
+    for file in bin/$name share/man/man1/$name.1.gz share/bash-completion/completions/$name; do
         [ -s "$root/usr/$file" ] || fail "/usr/$file is in no package"
     done
     if readelf -d "$root/usr/bin/$name" | grep -E 'R(UN)?PATH'; then fail "$name looks for libraries in a folder of its own"; fi

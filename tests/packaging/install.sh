@@ -10,8 +10,7 @@ logged cmake --install "$build" --prefix "$prefix"
 expected=$(cd "$bin" && ls -d ldi-* dof-* | grep -vx dof-stress) # a test program
 [ "$(ls "$prefix/bin")" = "$(sort <<<"$expected")" ] || fail "installed are $(ls "$prefix/bin" | xargs), not $(xargs <<<"$expected")"
 for tool in $expected; do
-    for page in "man/man1/$tool.1" "bash-completion/completions/$tool" "zsh/site-functions/_$tool" \
-        "fish/vendor_completions.d/$tool.fish"; do
+    for page in "man/man1/$tool.1" "bash-completion/completions/$tool"; do
         [ -s "$prefix/share/$page" ] || fail "share/$page is not installed"
     done
 done

@@ -61,7 +61,7 @@ asks_for() { # CODENAME SET
 }
 asks_for bookworm test && grep -qx clang-format-14 asked || fail "no clang-format-14 in Debian 12"
 grep -q scikit asked && fail "scikit-build-core is not in Debian 12"
-asks_for trixie test && grep -qx fish asked || fail "no fish in Debian 13"
+asks_for trixie test && grep -qx help2man asked || fail "no help2man in Debian 13"
 grep -qx python3-scikit-build-core asked || fail "no scikit-build-core in Debian 13"
 grep -q clang asked && fail "clang-format-14 is not in Debian 13"
 asks_for trixie lint && fail "the set lint passed in Debian 13"

@@ -27,7 +27,9 @@ for tool in "$bin"/dof-* "$bin"/ldi-*; do
     "$tool" --help | sed -n '/^Examples:/,$p' | sed -n 's/^      //p' >commands
     [ -s commands ] || fail "$name --help shows no example"
     grep -Ev "(^| )$name " commands && fail "these examples of $name do not use it"
-    "$tool" --man | sed -n '/^\.SH EXAMPLES/,$p' | sed 's/\\//g; s/\.br//' >page
+    manual=$bin/../share/man/man1/$name.1
+    [ -e "$manual" ] || manual=commands # options.sh asks for it
+    sed 's/\\//g' "$manual" >page
     while IFS= read -r command; do
         grep -qF -e "${command%%|*}" page || fail "the manual page of $name lacks: $command"
         [[ $command =~ $elsewhere ]] && continue

@@ -96,74 +96,48 @@ done
 
 # --- All options of all tools ---
 
-bash_words() { # TOOL WORDS...: the completions for the last word
-    bash -c '. "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; echo "${COMPREPLY[*]}"' - "$folder/$1" "$@"
+. "$source_dir/tools/completion.sh"
+bash_words() { # TOOL [PREVIOUS] WORD: the completions for the last word
+    _sparselens "$bin/$1" "${*: -1}" "${*: -2:1}"
+    echo "${COMPREPLY[*]}"
 }
 
-folder=$PWD/completions
-mkdir completions
+# has_page TOOL: the manual page has what --help, in stdout, has, each option with its text; man can format it.
+has_page() {
+    local page=$bin/../share/man/man1/$1.1
+    sed -n '/^\.TP$/{n;p}' "$page" | grep -oE '\\fB(\\-)+[^\]+(\\-[^\]+)*' | sed 's/\\fB//; s/\\-/-/g' | sort -u |
+        diff names - >differ || fail "$1: help and manual page: $(cat differ)"
+    ! grep -n '^\.HP\|^[^.].*:INT in\|REQUIRED\|Excludes:\|Needs:\|Env:' "$page" || fail "$1: the manual page is not readable"
+    groff -man -Tascii -P-cbou -ww -rLL=200n "$page" 2>warnings | sed 's/^ *//' >page.txt || fail "$page: $(cat warnings)"
+    [ ! -s warnings ] || fail "$page: $(cat warnings)"
+    grep -qx "$1 - [A-Z].*" page.txt && grep -qx CUE_THREADS page.txt || fail "$1: name and environment: $(cat page.txt)"
+    [ "$(grep "^$1 \[OPTIONS\]" page.txt | grep -o ' -' | wc -l)" -eq "$(grep -cE '^ +-.* REQUIRED' stdout)" ] ||
+        fail "$1: the synopsis lacks a required option: $(head -n 9 page.txt)"
+}
+
 for path in "$bin"/ldi-* "$bin"/dof-*; do
     tool=${path##*/}
-    exits 0 "$path" --man
-    [ ! -s stderr ] || fail "$tool --man says $(cat stderr)"
-    mv stdout "$tool.1"
-    grep -q '^\.SH NAME' "$tool.1" && grep -qi "^\.TH $tool 1" "$tool.1" || fail "$tool: no manual page"
-    cmp -s "$tool.1" "$bin/../share/man/man1/$tool.1" || fail "$tool: the built manual page is another"
-    exits 0 "$path" --completion bash
-    mv stdout "completions/$tool"
-    cmp -s "completions/$tool" "$bin/../share/bash-completion/completions/$tool" || fail "$tool: the built completion is another"
-    for shell in zsh fish; do
-        exits 0 "$path" --completion $shell
-        mv stdout "completions/$tool.$shell"
-    done
-    cmp -s "completions/$tool.zsh" "$bin/../share/zsh/site-functions/_$tool" || fail "$tool: the built completion of zsh is another"
-    cmp -s "completions/$tool.fish" "$bin/../share/fish/vendor_completions.d/$tool.fish" || fail "$tool: the built completion of fish is another"
-    fails_saying 2 '--completion' "$path" --completion csh
-
+    complete -p "$tool" >/dev/null 2>&1 || [ "$tool" = dof-stress ] || fail "$tool has no completion"
     exits 0 "$path" --version
     grep -q "^$tool " stdout || fail "$tool --version: $(cat stdout)"
     exits 0 "$path" -h
     mv stdout short_help
     exits 0 "$path" --help
     cmp -s stdout short_help || fail "$tool: -h and --help differ"
-    show "$tool" --help --version --man --completion
+    show "$tool" --help --version
     # "-v,--verbose", and of CLI11 2.6 "-v,     --verbose"
     grep -oE '^  +(-[a-z], +)?-[^ ]+' stdout | tr -d ' ' >options
     tr ',' '\n' <options | sort -u >names
     [ "$(wc -l <names)" -ge 8 ] || fail "$tool --help names $(cat names)"
     bash_words "$tool" - | tr ' ' '\n' | sort -u | diff names - >differ || fail "$tool: help and completion: $(cat differ)"
-    sed -nE "s/^ +'\\*(-[^[]+)\\[.*/\\1/p" "completions/$tool.zsh" | sort -u | diff names - >differ || fail "$tool: help and zsh: $(cat differ)"
-    sed -E "s/ -d '.*//" "completions/$tool.fish" | grep -oE ' -[sl] [^ ]+' | sed 's/ -s /-/; s/ -l /--/' | sort -u |
-        diff names - >differ || fail "$tool: help and fish: $(cat differ)"
-    sed -nE 's/\\fB((\\-)+[^\\]+(\\-[^\\]+)*)\\fR/\n&\n/gp' "$tool.1" | sed -nE 's/^\\fB(\\-.*)\\fR$/\1/p' | sed 's/\\-/-/g' | sort -u |
-        diff names - >differ || fail "$tool: help and manual page: $(cat differ)"
+    ! command -v help2man >/dev/null || has_page "$tool"
     # An option with two names is tested by one of them.
     while IFS=, read -r one two; do
         tested "$one" "$tool" || { [ -n "$two" ] && tested "$two" "$tool"; } || fail "$tool: no script shows what $one $two does"
     done <options
 done
 
-# man can format the page, and options with words offer them.
-if command -v groff >/dev/null; then
-    for page in *.1; do
-        groff -man -Tutf8 -ww "$page" >page.txt 2>warnings || fail "$page: $(cat warnings)"
-        [ ! -s warnings ] || fail "$page: $(cat warnings)"
-    done
-else
-    echo "skipped: the manual pages: groff is not installed"
-fi
+command -v help2man >/dev/null || echo "skipped: the manual pages: help2man is not installed"
 [ "$(bash_words dof-gather --method s)" = "selective scatter" ] || fail "--method: $(bash_words dof-gather --method s)"
 [ "$(bash_words dof-gather --focus-d)" = "--focus-distance" ] || fail "--focus-d: $(bash_words dof-gather --focus-d)"
-if command -v zsh >/dev/null; then
-    for file in completions/*.zsh; do zsh -fn "$file" || fail "$file is no zsh"; done
-else
-    echo "skipped: the completion of zsh, which is not installed"
-fi
-if command -v fish >/dev/null; then
-    fish_words() { XDG_CONFIG_HOME=$PWD XDG_DATA_HOME=$PWD fish -Nc "source completions/$1.fish; complete -C \"$1 $2\"" | cut -f1 | xargs; }
-    [ "$(fish_words dof-gather '--method s')" = "scatter selective" ] || fail "fish: --method: $(fish_words dof-gather '--method s')"
-    [ "$(fish_words dof-gather --focus-d)" = "--focus-distance" ] || fail "fish: --focus-d: $(fish_words dof-gather --focus-d)"
-else
-    echo "skipped: the completion of fish, which is not installed"
-fi
 [ -z "$(bash_words dof-gather in)" ] || fail "names of files are bash's: $(bash_words dof-gather in)"

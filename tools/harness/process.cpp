@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "harness/man_page.h"
 #include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
@@ -88,8 +87,8 @@ void refuse_passed_over(const CLI::App &app) {
     }
 }
 
-// Since 2.6, CLI11 checks required options before it calls the options' callbacks; but --man and --device list must
-// print and exit first.
+// Since 2.6, CLI11 checks required options before it calls the options' callbacks; but --device list must print
+// and exit first.
 void parse_all(CLI::App &app, std::vector<std::string> words) {
     try {
         app.parse(std::move(words));
@@ -111,7 +110,6 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
-    add_documentation_options(app, SPARSELENS_VERSION);
 }
 
 void add_memory_option(CLI::App &app, ProcessOptions &options) {

@@ -16,7 +16,7 @@ struct ProcessOptions {
     std::optional<std::uint64_t> max_memory;
 };
 
-// Adds --version, -v, --threads, --man and --completion.
+// Adds --version, -v and --threads.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 

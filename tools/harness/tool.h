@@ -100,9 +100,6 @@ struct Example {
 
 void add_examples(CLI::App &app, std::initializer_list<Example> examples);
 
-// The examples of `app` as text, two lines each, without the heading; empty if it has none.
-std::string examples_text(const CLI::App &app);
-
 // --stats: writes statistics on the work that a stage left out, as one line of JSON per stage and frame, so that the
 // stages of a pipe can share a file. docs/stats.md explains the keys.
 using Stats = nlohmann::ordered_json;
