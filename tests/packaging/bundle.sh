@@ -41,7 +41,7 @@ done
 exits 0 links/gather-of-the-archive theirs/fence.ldi.exr -o linked.exr
 cmp linked.exr theirs/picture.exr || fail "by a link: another picture"
 for ending in jpg tga; do
-    fails_saying 2 'ends in no format that is written: .exr, .png$' "$made/bin/dof-gather" theirs/fence.ldi.exr -o x.$ending
+    fails_saying 2 'ends in no format that is written: .exr, .png \(see' "$made/bin/dof-gather" theirs/fence.ldi.exr -o x.$ending
 done
 
 # The pixels of PNG are those that OpenImageIO writes, also with coverage and pixels that are not square.

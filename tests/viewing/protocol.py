@@ -184,7 +184,7 @@ def bears_lines_without_end(server):
 
 def bears_little_memory():
     """If a picture finds no memory, the page is told, and the next picture is made."""
-    subprocess.run([program.replace("dof-view", "dof-trace"), "fence", "--size", "640x360", "--spp", "1", "--views", "0", "-o", "large"], check=True)
+    subprocess.run([program.replace("dof-view", "dof-trace"), "fence", "--size", "1920x1080", "--spp", "1", "--views", "0", "-o", "large"], check=True)
     with served(program, "large/center.exr") as server:
         server.said("/facts") # starts that page's threads
         size = int(server.memory("VmSize") * 2**20)
