@@ -351,14 +351,14 @@ FOR_PROCESSORS std::uint64_t zeros_of(const std::uint64_t *keys) {
 }
 
 FOR_PROCESSORS void depths_of(std::span<const std::uint64_t> keys, float *depths) {
-    const std::size_t count = keys.size(); // local copies rule out aliasing
+    const std::size_t end = keys.size(); // local copies rule out aliasing
     const std::uint64_t *key = keys.data();
-    for (std::size_t i = 0; i < count; ++i) depths[i] = kernels::depth_of(kernels::upper_of(key[i]));
+    for (std::size_t i = 0; i < end; ++i) depths[i] = kernels::depth_of(kernels::upper_of(key[i]));
 }
 
-FOR_PROCESSORS std::uint64_t far_behind(const float *depths, std::ptrdiff_t stride) {
-    return std::uint64_t{far_behind_of_half(depths + half, stride)} << half |
-           far_behind_of_half(depths, stride);
+FOR_PROCESSORS std::uint64_t far_behind(const float *depths, std::ptrdiff_t pitch) {
+    return std::uint64_t{far_behind_of_half(depths + half, pitch)} << half |
+           far_behind_of_half(depths, pitch);
 }
 
 } // namespace sparselens

@@ -143,7 +143,7 @@ std::uint64_t zeros_of(const std::uint64_t *keys);
 void depths_of(std::span<const std::uint64_t> keys, float *depths);
 
 // Returns a bit for each of 64 cells: whether it shows something farther than the cells on two opposite sides of it, so
-// that a crack may lie there. `stride`: from one row to the next. The cells around the 64 are read as well.
-std::uint64_t far_behind(const float *depths, std::ptrdiff_t stride);
+// that a crack may lie there. `pitch`: from one row to the next. The cells around the 64 are read as well.
+std::uint64_t far_behind(const float *depths, std::ptrdiff_t pitch);
 
 } // namespace sparselens

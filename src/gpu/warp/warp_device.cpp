@@ -49,9 +49,9 @@ struct WarpKernels {
 
 class StripeWork {
 public:
-    // Uploads what the stripe needs.
+    // Uploads what the stripe needs. `most`: samples in a pixel.
     StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
-               std::uint32_t most_in_pixel);
+               std::uint32_t most);
 
     // Puts all samples into the pixels that they fall into. Returns false if some pixel has too many samples; nothing
     // else can be done then.
@@ -255,10 +255,10 @@ WarpKernels::WarpKernels(Device &device)
       sum(device) {}
 
 StripeWork::StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
-                       std::uint32_t most_in_pixel)
+                       std::uint32_t most)
     : device_(device), kernels_(kernels), scene_(scene), stripe_(stripe), pixels_(Grid(stripe.box).size()),
       blocks_(Tiles(stripe.box, kernels::photo_block).count()) {
-    const warp_kernel::Frame constants = frame_of(scene, stripe, most_in_pixel);
+    const warp_kernel::Frame constants = frame_of(scene, stripe, most);
     upload(frame, std::as_bytes(std::span(&constants, 1)));
     upload(views, std::as_bytes(std::span(stripe.views)));
     upload_views();
