@@ -1,7 +1,7 @@
 // Makes a picture from sub-pixels.
 //
-// Light, and the coverage of each Cryptomatte id, is the mean of the sub-pixels, weighted by the pixel's filter
-//. Ids and data have no mean and come from the sub-pixel in the middle.
+// Light, and the coverage of each Cryptomatte id, is the mean of the sub-pixels, weighted by the pixel's filter.
+// Ids and data have no mean and come from the sub-pixel in the middle.
 #pragma once
 
 #include "image.h"

@@ -72,7 +72,8 @@ inline float back_at(const Ldi &ldi, std::uint64_t index) {
     return ldi.z_back.empty() ? ldi.z[index] : ldi.z_back[index];
 }
 
-// Calls visit(sample, what the samples in front of it let through), front to back. Returns what all of them let through.
+// Calls visit(sample, left) for each sample, front to back; `left` is what the samples in front of it let through.
+// Returns what all samples let through.
 template <typename Samples, typename Visit>
 double for_shares(const Samples &in, std::size_t alpha_channel, const SampleRange &range,
                   const Visit &visit) {

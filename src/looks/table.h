@@ -1,5 +1,5 @@
-// The table of looks. A look is registered here and nowhere else: its struct becomes a part of LookValues
-// (below), its rows options, keywords, keys of lens files and sliders, in this order.
+// The table of looks. A look is registered here and nowhere else: its struct becomes a part of LookValues, and its rows
+// become options, keywords, keys of lens files and sliders, in this order.
 #pragma once
 
 #include "../lens/lens_looks.h"
@@ -17,9 +17,8 @@ using AllLooks = LookTable<looks::Blades, looks::Squeeze, looks::Spherical, look
                            looks::CatEye, looks::AxialChromatic, looks::FieldCurvature, looks::Astigmatism,
                            looks::Tilt, looks::Breathing>;
 
-// The looks of a lens as options, a lens file or a picture's header give them, with names and
-// ranges; resolve_lens.h turns them into LensLooks, whose defaults apply where a value is missing.
-
+// The values of looks, from options, a lens file or a picture's header. resolve_lens.h turns them into LensLooks, whose
+// defaults apply where a value is missing.
 struct LookValues : AllLooks {
     std::optional<double> highlight_gain = {}, highlight_threshold = {},
                           highlight_knee = {}; // deep/recolor.h

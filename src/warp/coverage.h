@@ -60,10 +60,10 @@ inline std::vector<ViewSample> balanced(std::span<const ViewSample> samples) {
 
 // The coverage of a surface that the centre view does not see, by a vote of the rim views.
 //
-// A pixel of one view on an edge claims the whole pixel for the surface. Of the other views of the same position, some
-// see the surface and some see past it. If every claim counted, the surface would grow with every view; by majority it
-// keeps its size, and its edge becomes softer with more views. The mean of what the views show is right on average, but
-// also keeps what a few views misplaced. Both together are better than either.
+// On an edge, a sample of one view covers its whole pixel, but the surface covers only a part of it. Other views of the
+// same position see the surface or see past it. If every sample counted, the surface would grow with every view. By the
+// majority of the views it keeps its size, and its edge becomes softer with more views. The mean of what the views show
+// is right on average, but also keeps what a few views misplaced. Both together are better than either.
 //
 // A veil, or an edge in front of nothing, covers a part of the pixels that see it. Its samples already have that
 // coverage, so the vote must not reduce it again: what a pixel leaves open is not a vote against what it sees there.

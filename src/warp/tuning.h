@@ -14,8 +14,8 @@ struct WarpTuning {
     // Pixels around the one of a view that must see no farther (continue_surfaces.h).
     static constexpr int sight_margin = 1;
 
-    // Solids (continue_surfaces.h). Perceptive: thickness of a surface that no view sees through. With 2, pinecone and macro have
-    // .7 and .1 dB less inside their masks.
+    // Solids (continue_surfaces.h). Perceptive: thickness of a surface that no view sees through. With 2, pinecone and
+    // macro have .7 and .1 dB less inside their masks.
     static constexpr double solid_px = 4;
     // Perceptive: a view counts as seeing something nearer if it is nearer by at least this.
     static constexpr double solid_nearer_px = 0.5;

@@ -1,5 +1,5 @@
-// Makes one picture at a time, on the thread that asks for it. A page's newer request replaces its older one, waiting or
-// running; pages take turns.
+// Makes one picture at a time, on the thread that asks for it. A page's newer request replaces its older one, which
+// waits or is at work. Pages take turns.
 #pragma once
 
 #include "base/progress.h"
@@ -30,8 +30,8 @@ public:
 
     static constexpr std::size_t most_waiting = 16;
 
-    // Waits for its turn and makes the answer; empty if the page has asked for something newer meanwhile. Throws what the
-    // work throws, and Error if more than `most_waiting` pages wait. All calls must end before the studio does.
+    // Waits for its turn and makes the answer; empty if the page has asked for something newer meanwhile. Throws what
+    // the work throws, and Error if more than `most_waiting` pages wait. All calls must end before the studio does.
     std::optional<std::string> make(const std::string &page, const Work &work);
 
     // Empty if no work of the page is running.

@@ -42,8 +42,8 @@ struct FacetBlocks {
 // than 2^32 samples.
 FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest);
 
-// Finds which opaque samples of adjacent pixels, and of cells of several pixels, lie on one surface; the text above says when
-// they are linked.
+// Finds which opaque samples of adjacent pixels, and of cells of several pixels, lie on one surface. The beginning of
+// this file says when they are linked.
 
 struct LinkedSample {
     static constexpr std::uint32_t none = ~0u;

@@ -31,14 +31,13 @@ Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens
     const auto at_depth = [&](double z, std::uint32_t sample) {
         return Ground{float(perceptive_depth(lens, z)), sample};
     };
-    const SampleRange samples = ldi.pixel(pixel);
-    if (lets_through(ldi, alpha_channel, samples))
+    std::uint32_t last = Filler::nothing;
+    const double left = for_shares(ldi, alpha_channel, ldi.pixel(pixel), [&](std::uint64_t i, double) {
+        if (alpha_at(ldi, alpha_channel, i) >= half_covered) last = std::uint32_t(i);
+    });
+    if (lets_through(left))
         return known ? at_depth(std::numeric_limits<double>::infinity(), Filler::nothing) : Ground{};
-    Ground last;
-    for (const std::uint64_t i : samples)
-        if (alpha_at(ldi, alpha_channel, i) >= half_covered)
-            last = at_depth(double(ldi.z[i]), std::uint32_t(i));
-    return last;
+    return last == Filler::nothing ? Ground{} : at_depth(double(ldi.z[last]), last);
 }
 
 std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {

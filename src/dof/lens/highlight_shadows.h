@@ -2,10 +2,9 @@
 //
 // Whether a position in a disc sees the lamp does not depend on the lens points of the gather: position and lamp
 // determine the point of the lens, and so what hides the lamp there (lens/lamp_shadow.h). A sample hides everything
-// farther. Samples of one surface do not shadow each other, because their footprints share edges
-// (dof/footprints/footprint.h). Opaque samples side by side cast one shadow (dof/footprints/footprint.h).
-// Highlights of partial coverage in other pixels that are at most a tenth nearer do not hide each other: they are lamps
-// smaller than a pixel, side by side.
+// farther. Samples of one surface do not shadow each other, because their footprints share edges; opaque samples side
+// by side cast one shadow (dof/footprints/footprint.h). Highlights of partial coverage in other pixels that are at most
+// a tenth nearer do not hide each other: they are lamps smaller than a pixel, side by side.
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
 // costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart, with m as in

@@ -27,19 +27,16 @@ PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float
             surface_coc};
 }
 
-float alpha_of(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t i) {
-    return std::clamp(alpha_at(ldi, alpha_channel, i), 0.0f, 1.0f);
-}
-
 // The samples of one pixel, its background included.
 void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known, int x, int y,
                   std::size_t alpha_channel, std::vector<PlacedSample> &found) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
     const std::size_t pixel = ldi.windows.index(at.x, at.y);
     const SampleRange samples = ldi.pixel(pixel);
-    for (const std::uint64_t i : samples)
-        found.push_back(sample_at(ldi, lens, x, y, alpha_of(ldi, alpha_channel, i), i));
-    if (!lets_through(ldi, alpha_channel, samples) || !known.has(ldi.windows, pixel)) return;
+    const double left = for_shares(ldi, alpha_channel, samples, [&](std::uint64_t i, double) {
+        found.push_back(sample_at(ldi, lens, x, y, alpha_at(ldi, alpha_channel, i), i));
+    });
+    if (!lets_through(left) || !known.has(ldi.windows, pixel)) return;
     const auto add_background = [&](float at_x, float at_y, float coc) {
         found.push_back({at_x, at_y, coc, 0, 1, BlockedSamples::background});
     };
@@ -57,10 +54,11 @@ SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int 
     const std::size_t pixel = ldi.windows.index(at.x, at.y);
     const SampleRange samples = ldi.pixel(pixel);
     SampleCounts counts{0, std::uint32_t(samples.size())};
-    for (const std::uint64_t i : samples) counts.opaque += is_opaque(alpha_at(ldi, alpha_channel, i));
+    const double left = for_shares(ldi, alpha_channel, samples, [&](std::uint64_t i, double) {
+        counts.opaque += is_opaque(alpha_at(ldi, alpha_channel, i));
+    });
     const std::uint32_t backgrounds =
-        lets_through(ldi, alpha_channel, samples) && known.has(ldi.windows, pixel) ? (samples.empty() ? 1 : 2)
-                                                                                   : 0;
+        lets_through(left) && known.has(ldi.windows, pixel) ? (samples.empty() ? 1 : 2) : 0;
     return {counts.opaque + backgrounds, counts.all + backgrounds};
 }
 
