@@ -101,11 +101,17 @@ private:
     void repair_coverage(std::size_t channel);
     void repair_depths();
     void repair_colours(std::size_t channel);
+    // What neither covers nor shines is nowhere. Light without coverage, such as fire, is where the renderer says.
     void hide_uncovered() {
         if (alpha_ == npos) return;
+        const auto shines = [&](std::size_t i) {
+            for (std::size_t k = 0; k < s_.values.size(); ++k)
+                if (is_light(s_.channels[k]) && !covers(k) && s_.values[k][i] != 0) return true;
+            return false;
+        };
         parallel_ranges(s_.z.size(), 65536, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
-                if (s_.values[alpha_][i] == 0) s_.z[i] = infinity;
+                if (s_.values[alpha_][i] == 0 && !(is_depth(s_.z[i]) && shines(i))) s_.z[i] = infinity;
         });
     }
 

@@ -12,8 +12,8 @@
 //   position outside its pixel    on its edge; NaN: in the middle
 //   weight not a number above 0   1
 //
-// Colours below 0, all other radiance and every other depth up to infinity are kept. Where A is 0 the depth becomes
-// infinity. "Around" are the eight neighbours; in a deep picture, their samples that are nearest in depth.
+// Colours below 0, all other radiance and every other depth up to infinity are kept. Where A and all light are 0 the
+// depth becomes infinity. "Around" are the eight neighbours; in a deep picture, their samples that are nearest in depth.
 #pragma once
 
 #include "../base/image.h"
