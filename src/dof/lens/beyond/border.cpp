@@ -97,10 +97,11 @@ bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) con
     return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
 }
 
-// The perceptive depth of the front sample of a pixel if it is opaque; else below 0.
+// The perceptive depth of the first opaque sample of a pixel; below 0, and so behind all, if there is none.
 double Border::front(const Imath::V2i &at) const {
-    const SampleRange here = samples(at);
-    return here.empty() || !is_opaque(alpha_at(ldi_, alpha_, here.front())) ? -1 : depth(here.front());
+    for (const std::uint64_t i : samples(at))
+        if (is_opaque(alpha_at(ldi_, alpha_, i))) return depth(i);
+    return -1;
 }
 
 // Finds how far the surface that the border cuts off continues. It is judged by other surfaces of the row that lie in
@@ -112,7 +113,7 @@ void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     int width = 0, least = inwards;
     double last = cut;
     bool nearer = true; // whether the current surface is nearer than the one before it
-    for (int from = 0, n = 1; n < inwards; ++n) {
+    for (int from = 0, n = 1; n < inwards && ldi_.windows.data.intersects(line.pixel(i, -n)); ++n) {
         const double here = front(line.pixel(i, -n));
         if (!is_one_surface(here, last)) {
             const bool ends = nearer && here < last;
