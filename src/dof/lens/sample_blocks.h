@@ -6,6 +6,7 @@
 #include "base/image.h"
 #include "base/light.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "deep/ldi.h"
 #include "kernels/lens_rules.h"
 #include "lens/thin_lens.h"
@@ -183,18 +184,20 @@ inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples)
     return colours;
 }
 
-// Channels that are light, without coverage; and the channels among them that say how bright a sample is.
+// Channels that are light, without coverage; and the channels among them that say how bright a sample is: R, G and B, or
+// the Y of a grey picture.
 struct LightChannels {
     std::vector<std::size_t> all, brightness;
 };
 
 inline LightChannels light_channels(const Ldi &ldi) {
     LightChannels light;
+    const bool grey = find_channel(ldi.channels, rgb_names[0]) == npos;
     for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
         const Channel &channel = ldi.channels[k];
         if (!is_light(channel) || k == ldi.alpha()) continue;
         light.all.push_back(k);
-        if (channel.name == "R" || channel.name == "G" || channel.name == "B") light.brightness.push_back(k);
+        if (grey ? channel.name == "Y" : is_among(rgb_names, channel.name)) light.brightness.push_back(k);
     }
     return light;
 }
@@ -210,9 +213,9 @@ inline LightChannels light_channels(const Ldi &ldi) {
 // opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;
 // without such a sample there is no solid. Mirrors and glass, which show images, are not solid.
 
-// Returns the solids of an LDI, in the blocks of its `samples`, before looks move them (gather_scene.h); no blocks if nothing
-// is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is farther.
-// Their key has that depth, and names the one of `samples` that shows.
+// Returns the solids of an LDI, in the blocks of its `samples`, before looks move them (gather_scene.h); no blocks if
+// nothing is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is
+// farther. Their key has that depth, and names the one of `samples` that shows.
 BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
 
 } // namespace sparselens
