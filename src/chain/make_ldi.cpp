@@ -263,13 +263,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
                                 other.name, first.name));
     require_same_subpixels(first.camera, first.name, other.camera, other.name);
     const int width = first.ldi.windows.display_width();
-    const auto focal = focal_length_px(first.camera, width), others = focal_length_px(other.camera, width);
-    constexpr double rounding = 1e-3; // relative, for values that other programs have written
-    if (focal && others && std::abs(*others / *focal - 1) > rounding)
-        throw Error(
-            fmt::format("{}: its focal length is {:g} pixels, that of {} is {:g}; merge pictures of one "
-                        "camera, or give `focal_length` and `sensor_width`",
-                        other.name, *others, first.name, *focal));
+    require_same_field(first.camera, first.name, other.camera, other.name, {width, width});
 }
 
 // The pictures, of which there must be at least one, with their samples merged by depth (deep/merge.h).

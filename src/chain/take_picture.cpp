@@ -11,6 +11,7 @@
 #include "dof/gather_rows.h"
 #include "io/camera/camera_header.h"
 #include "io/exr/exr_header.h"
+#include "view/lens_views.h"
 #include "view/resolve_lens.h"
 
 #include <ImfStringAttribute.h>
@@ -23,6 +24,12 @@
 namespace sparselens {
 
 namespace {
+
+Ldi holdout_of(const PictureRequest &request, const OpenedLdi &in, const OpenedLdi &holdout) {
+    require_same_field(in.camera, in.name, holdout.camera, holdout.name,
+                       {in.ldi.windows.display_width(), holdout.ldi.windows.display_width()});
+    return holdout_for(in, request.windows, holdout.ldi, holdout.name);
+}
 
 bool is_lens_method(const PictureRequest &request) {
     return request.picture.method == &gather_methods().front();
@@ -99,7 +106,7 @@ private:
 
     void hold_out() {
         if (const OpenedLdi *opened = request_.opened_holdout)
-            holdout_ = holdout_for(in_, request_.windows, opened->ldi, opened->name);
+            holdout_ = holdout_of(request_, in_, *opened);
         else if (!request_.holdout.empty())
             holdout_ = open_holdout(request_, in_);
         if (holdout_) by_.holdout = &*holdout_;
@@ -244,8 +251,7 @@ ThinLens picture_lens(const PictureRequest &request, const OpenedLdi &in, const 
 Ldi open_holdout(const PictureRequest &request, const OpenedLdi &in) {
     OpenOptions by{request.lens, request.depth};
     by.depth.picture.depth_file.clear(); // belongs to the picture
-    const OpenedLdi opened = open_ldi(request.holdout, by);
-    return holdout_for(in, request.windows, opened.ldi, opened.name);
+    return holdout_of(request, in, open_ldi(request.holdout, by));
 }
 
 TakenPicture take_picture(const OpenedLdi &in, const PictureRequest &request, const PictureWork &work) {

@@ -129,6 +129,19 @@ void require_same_subpixels(const Camera &first, const std::string &first_name, 
                             name, found, found, expected, expected, first_name));
 }
 
+void require_same_field(const Camera &first, const std::string &first_name, const Camera &other,
+                        const std::string &name, std::array<int, 2> widths) {
+    const auto focal = focal_length_px(first, widths[0]), others = focal_length_px(other, widths[1]);
+    constexpr double rounding = 1e-3; // relative, for values that other programs have written
+    if (!focal || !others) return;
+    const double as_first = *others * widths[0] / widths[1];
+    if (std::abs(as_first / *focal - 1) > rounding)
+        throw Error(
+            fmt::format("{}: its focal length is {:g} pixels, that of {} is {:g}; use pictures of one "
+                        "camera, or give `focal_length` and `sensor_width`",
+                        name, as_first, first_name, *focal));
+}
+
 PlacedCameras place_cameras(std::span<const StatedView> stated) {
     Camera centre = stated[0].camera;
     for (const StatedView &view : stated)

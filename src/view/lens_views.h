@@ -6,6 +6,7 @@
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,11 @@ struct ViewPlace {
 // (Camera::supersample).
 void require_same_subpixels(const Camera &first, const std::string &first_name, const Camera &other,
                             const std::string &name);
+
+// Throws Error, naming both files, if their cameras are known to have other fields of view. `widths`: of their display
+// windows, in pixels.
+void require_same_field(const Camera &first, const std::string &first_name, const Camera &other,
+                        const std::string &name, std::array<int, 2> widths);
 
 struct PlacedCameras {
     Camera centre; // with the lens points of all views
