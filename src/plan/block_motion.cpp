@@ -81,13 +81,19 @@ public:
         most_ = most_different();
     }
 
-    // The displacement; empty if the surface is too small here, has no texture or is not found.
-    std::optional<Imath::V2d> displacement() const {
+    // In whole squares, and exactly.
+    struct Displacement {
+        Imath::V2i whole;
+        Imath::V2d exact;
+    };
+    // Empty if the surface is too small here, has no texture or is not found.
+    std::optional<Displacement> displacement() const {
         if (most_ == 0) return {};
         Imath::V2i found = valley(expected_);
         if (different(found) > most_) found = valley(closest());
         if (!(different(found) <= most_)) return {};
-        return Imath::V2d(found) + Imath::V2d(between(found, {1, 0}), between(found, {0, 1}));
+        return Displacement{found,
+                            Imath::V2d(found) + Imath::V2d(between(found, {1, 0}), between(found, {0, 1}))};
     }
 
 private:
@@ -167,13 +173,14 @@ private:
 };
 
 // The displacement of a block, if the way back leads to where it came from. It does not if something has covered it.
+// Along an edge, both searches miss by the same fraction of a square in the same direction, so their difference does not.
 std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &second,
                                          const Imath::V2i &corner, const Imath::V2d &expected) {
     const auto there = Search(first, second, corner, expected).displacement();
     if (!there) return {};
-    const Imath::V2i to = corner + Imath::V2i(int(std::lround(there->x)), int(std::lround(there->y)));
-    const auto back = Search(second, first, to, -expected).displacement();
-    return back && (*there + *back).length() <= PlanTuning::way_back ? there : std::nullopt;
+    const auto back = Search(second, first, corner + there->whole, -expected).displacement();
+    if (!back || (there->exact + back->exact).length() > PlanTuning::way_back) return {};
+    return (there->exact - back->exact) / 2.0;
 }
 
 using Displacements = std::vector<std::optional<Imath::V2d>>;
