@@ -139,12 +139,27 @@ ShutterPart exposure_of_row(int row, int rows, double duration) {
     return {from, std::min(from + duration, 1.0)};
 }
 
+namespace {
+
+// Scales the weights of a row so that floats hold them in any unit; by a power of two, which changes no mean. A row with
+// no weight, because the curve is narrower than doubles tell, sees the moment in the middle of its exposure.
+void normalise(std::vector<double> &weights, const ShutterPart &open) {
+    const double most = *std::ranges::max_element(weights);
+    if (most > 0)
+        for (double &weight : weights) weight = std::ldexp(weight, -std::ilogb(most));
+    else
+        weights[std::size_t((open.from + open.to) / 2 * double(weights.size()))] = 1;
+}
+
+} // namespace
+
 std::vector<std::vector<double>> row_weights(const ShutterCurve &curve, int moments, double duration,
                                              int rows) {
     std::vector weights(std::size_t(moments), std::vector(std::size_t(rows), 0.0));
     for (int row = 0; row < rows; ++row) {
-        const std::vector<double> of_row =
-            moment_weights(curve, moments, exposure_of_row(row, rows, duration));
+        const ShutterPart open = exposure_of_row(row, rows, duration);
+        std::vector<double> of_row = moment_weights(curve, moments, open);
+        normalise(of_row, open);
         for (std::size_t m = 0; m < weights.size(); ++m) weights[m][std::size_t(row)] = of_row[m];
     }
     return weights;

@@ -77,8 +77,8 @@ inline constexpr double least_rolling_duration = 0.001;
 // are exposed when its first or last row is.
 ShutterPart exposure_of_row(int row, int rows, double duration);
 
-// The weights of the moments in each row of the display window, [moment][row]. Each row's own exposure has the whole
-// curve.
+// The weights of the moments in each row of the display window, [moment][row], of which only the ratios within a row
+// count: the largest is from 1 to 2, so that floats hold them. Each row's own exposure has the whole curve.
 std::vector<std::vector<double>> row_weights(const ShutterCurve &curve, int moments, double duration,
                                              int rows);
 

@@ -32,7 +32,10 @@ const std::vector<LensSample> &LensSets::for_coc(float largest, std::size_t doub
 }
 
 std::vector<LensSample> LensSets::of_share(std::size_t points) const {
-    return shared_points(lens_samples(aperture_, points, pixel_aspect_), options_.share);
+    const auto moments =
+        std::size_t(options_.share.moments); // each takes as many, so that all points count alike
+    const std::size_t all = pieces_of(points, moments) * moments;
+    return shared_points(lens_samples(aperture_, all, pixel_aspect_), options_.share);
 }
 
 LensSample LensSets::through(const Imath::V2d &point) const {
