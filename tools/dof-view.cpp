@@ -4,6 +4,7 @@
 #include "harness/commands/frames.h"
 #include "harness/process.h"
 #include "harness/tool.h"
+#include "io/lens_file.h"
 #include "options/gather_options.h"
 #include "viewing/door.h"
 #include "viewing/pipe.h"
@@ -111,7 +112,7 @@ int view(const std::vector<std::string> &words, const FrameCommands &frames) {
     if (std::ranges::find(words, "--pipe") != words.end()) app.get_option("IN")->required(false);
     return run_tool(app, frames.words(0), [&](const ToolContext &tool) {
         if (options.pipe) return answer_pipe(tool);
-        options.presets = lens_presets();
+        options.presets = installed_lenses();
         for (const std::string &text : frames.warnings()) warn(tool, text);
         Viewer viewer(options, words, frames, tool);
         const std::string key = random_key();

@@ -23,6 +23,10 @@ namespace {
 
 using Json = nlohmann::json;
 
+std::string beside(const std::string &path, const std::string &name) {
+    return (std::filesystem::path(path).parent_path() / name).string();
+}
+
 class Reader {
 public:
     Reader(const std::string &path, std::optional<double> fstop) : path_(path), fstop_(fstop) {}
@@ -58,8 +62,7 @@ private:
         } else if (key == "aperture") {
             if (!value.is_string() || is_standard_stream(value.get<std::string>()))
                 refuse(key, value, "the name of a file");
-            const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-            file.values.picture = read_aperture_picture((folder / value.get<std::string>()).string());
+            file.values.picture = read_aperture_picture(beside(path_, value.get<std::string>()));
         } else if (key == "cat-eye-darkening") {
             if (!value.is_boolean()) refuse(key, value, "true or false");
             file.values.cat_eye_darkening = value.get<bool>();
@@ -122,13 +125,41 @@ private:
 
 } // namespace
 
+std::string aperture_named_in(const std::string &lens_file) {
+    const Json json = read_json_file(lens_file);
+    const auto found = json.is_object() ? json.find("aperture") : json.end();
+    return found != json.end() && found->is_string() ? beside(lens_file, found->get<std::string>()) : "";
+}
+
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop) {
     return Reader(path, fstop).read();
 }
 
+std::map<std::string, std::string> installed_lenses() {
+    std::map<std::string, std::string> lenses;
+    std::error_code unknown;
+    for (const char *folder : {"share/sparselens/lenses", "share/lenses"})
+        for (const auto &file : std::filesystem::directory_iterator(find_installed(folder), unknown))
+            if (file.path().extension() == ".json")
+                lenses.emplace(file.path().stem().string(), file.path().string());
+    return lenses;
+}
+
+namespace {
+
+std::string lens_file_named(const std::string &name) {
+    std::error_code unknown;
+    if (std::filesystem::exists(name, unknown) || std::filesystem::path(name).has_parent_path()) return name;
+    const auto lenses = installed_lenses();
+    const auto lens = lenses.find(name);
+    return lens == lenses.end() ? name : lens->second;
+}
+
+} // namespace
+
 LensFile read_looks(const GivenLooks &given, std::optional<double> fstop) {
     LensFile lens;
-    if (!given.lens_file.empty()) lens = read_lens_file(given.lens_file, fstop);
+    if (!given.lens_file.empty()) lens = read_lens_file(lens_file_named(given.lens_file), fstop);
     LookValues values = given.values;
     if (!given.aperture_file.empty()) values.picture = read_aperture_picture(given.aperture_file);
     lens.values = look_values_over(values, lens.values);

@@ -9,6 +9,7 @@
 #include "../lens/lens_looks.h"
 #include "../looks/table.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,10 +25,16 @@ struct LensFile {
 // depends on the f-number and this is unknown.
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop);
 
+// The file of the aperture that a lens file names; empty if it names none. Throws Error if it cannot be read.
+std::string aperture_named_in(const std::string &lens_file);
+
+// The lens files of share/lenses, where the program was installed or built, by their names ("petzval").
+std::map<std::string, std::string> installed_lenses();
+
 // The looks that a user gives: values, and files with further values.
 struct GivenLooks {
     LookValues values;
-    std::string lens_file;     // provides what `values` lack; empty: none
+    std::string lens_file;     // or the name of an installed lens; provides what `values` lack; empty: none
     std::string aperture_file; // the picture of the aperture; empty: none
 };
 

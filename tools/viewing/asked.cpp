@@ -14,7 +14,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
 #include <system_error>
 
@@ -180,17 +179,6 @@ std::string python_value(ParameterForm form, const std::string &value) {
 }
 
 } // namespace
-
-Presets lens_presets() {
-    Presets presets;
-    std::error_code unknown;
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().parent_path();
-    for (const auto &lenses : {folder / "share/sparselens/lenses", folder.parent_path() / "share/lenses"})
-        for (const auto &file : std::filesystem::directory_iterator(lenses, unknown))
-            if (file.path().extension() == ".json")
-                presets.emplace(file.path().stem().string(), file.path().string());
-    return presets;
-}
 
 Words picture_words(const Words &all) {
     return without(all, [](const std::string &name) {

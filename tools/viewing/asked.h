@@ -39,10 +39,8 @@ Asked parse_asked(std::string_view text);
 // a page can set only what a command line can say, and every picture has a command.
 using Words = std::vector<std::string>;
 
-// Lenses that the page offers: names (petzval) and files of share/lenses, where the program was installed or built;
-// empty if there are none.
+// Lenses that the page offers (installed_lenses()).
 using Presets = std::map<std::string, std::string>;
-Presets lens_presets();
 
 // The words of a dof-view command line that dof-gather also has: IN, and how the picture is made.
 Words picture_words(const Words &all);

@@ -2,10 +2,13 @@
 
 #include "base/error.h"
 #include "chain/notices.h"
+#include "chain/take_moments.h"
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "io/exr/exr_flat.h"
+#include "io/lens_file.h"
+#include "io/moment_files.h"
 #include "options/gather_options.h"
 #include "viewing/shot.h"
 
@@ -76,7 +79,7 @@ auto find(Kept &kept, const Job &job) {
 } // namespace
 
 Gatherer::Gatherer(const ToolContext &tool)
-    : tool_(tool), presets_(lens_presets()), most_bytes_(memory_for_frames(tool.max_memory)) {}
+    : tool_(tool), presets_(installed_lenses()), most_bytes_(memory_for_frames(tool.max_memory)) {}
 
 // The colours are those that the configuration of OpenColorIO gives a file of such a name.
 void Gatherer::take(PipeRequest &request, std::string pixels) {
@@ -140,6 +143,8 @@ void Gatherer::to_stored_colours(const Job &job, Image &image, Imf::Header &head
 }
 
 std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
+    // The window of a shutter's picture holds those of all moments, so they have to be read.
+    if (names_moments(job.command.input)) return taken(job);
     if (auto found = find(descriptions_, job)) return found;
     const auto made = make(job, [&](const PictureWork &work) {
         TakenPicture picture = describe_picture(cache_, job.command, work);
@@ -160,7 +165,7 @@ std::shared_ptr<const Gatherer::Made> Gatherer::taken(const Job &job) {
     if (auto found = find(pictures_, job)) return found;
     const auto bytes_of = [](const auto &made) { return made->picture.image.values.size() * sizeof(float); };
     const auto made = make(job, [&](const PictureWork &work) {
-        TakenPicture picture = take_picture(cache_, true, job.command, work);
+        TakenPicture picture = take_moments(cache_, true, job.command, work);
         to_stored_colours(job, picture.image, picture.header);
         picture.image = in_type(std::move(picture.image), job.command.type);
         return picture;
@@ -180,7 +185,7 @@ Gatherer::Answer Gatherer::facts(const Job &job) {
     ShotPicture shot;
     static_cast<TakenPicture &>(shot) = made->picture;
     shot.warnings = made->warnings;
-    shot.depths = depth_extent(cache_.load(job.command, quiet).ldi);
+    shot.depths = depth_extent(cache_.load(middle_moment(job.command), quiet).ldi);
     Json said = lens_facts(shot);
     said.update(
         {{"nearest", json_number(shot.depths.nearest)}, {"farthest", json_number(shot.depths.farthest)}});
@@ -199,7 +204,8 @@ int Gatherer::levels_of(const Made &made) {
 Gatherer::Answer Gatherer::header(const Made &made) {
     Json said = layout_of(made.picture);
     const Imath::V2i first = made.picture.image.windows.data.min;
-    Image pixel = made.picture.image;
+    const bool has_values = made.picture.image.values.size() > made.picture.image.channels.size();
+    Image pixel = has_values ? crop(made.picture.image, {first, first}) : made.picture.image;
     pixel.windows.data = {first, first};
     const GatherCommand &command = made.job.command;
     said.update({{"levels", levels_of(made)},

@@ -5,6 +5,8 @@
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
 #include "io/files/text_file.h"
+#include "io/lens_file.h"
+#include "io/moment_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -171,12 +173,24 @@ Words at_frame(Words words, const std::optional<int> &frame) {
     }
 }
 
-void require_regular_files(const Words &words) {
+// A pipe may never end, and the host would wait for it.
+void require_regular(const std::string &file) {
     std::error_code unknown;
-    for (const std::string &file : files_in(words))
-        if (const fs::file_status status = fs::status(file, unknown);
-            fs::exists(status) && !fs::is_regular_file(status))
-            throw UsageError(file + ": is not a regular file");
+    const fs::file_status status = fs::status(file, unknown);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw UsageError(file + ": is not a regular file");
+}
+
+// The moments that a name with %s stands for, or the file of that name; and the aperture that a lens file names.
+void add_files(const std::string &option, const std::string &path, std::vector<std::string> &files) {
+    if (names_moments(path)) {
+        for (const std::string &number : moments_on_disk(path)) files.push_back(at_moment(path, number));
+        return;
+    }
+    require_regular(path);
+    files.push_back(path);
+    if (option != "--lens") return;
+    if (const std::string aperture = aperture_named_in(path); !aperture.empty()) files.push_back(aperture);
 }
 
 } // namespace
@@ -214,15 +228,18 @@ Words words_of(const PictureSource &source, const Presets &presets) {
     const Setter setter(folder, presets);
     for (const Settings *all : {&std::as_const(settings), &source.settings, &std::as_const(query)})
         words = setter.set(std::move(words), *all);
+    for (const std::string &word : words)
+        if (word.starts_with('@')) require_regular(word.substr(1)); // keys
     words = at_frame(std::move(words), frame);
-    require_regular_files(words);
+    for (const std::string &file : files_in(words)) require_regular(file);
     return words;
 }
 
 std::vector<std::string> files_in(const Words &words) {
-    std::vector<std::string> files{words.front()};
+    std::vector<std::string> files;
+    add_files({}, words.front(), files);
     for (std::size_t i = 1; i + 1 < words.size(); ++i)
-        if (is_input_word(words[i])) files.push_back(words[i + 1]);
+        if (is_input_word(words[i])) add_files(words[i], words[i + 1], files);
     return files;
 }
 

@@ -33,7 +33,8 @@ std::map<std::string, std::string> settings_in(const nlohmann::json &object, con
 // file (shot.0012.dof), else the first of a sequence. Throws UsageError and Error, naming the file and the key.
 Words words_of(const PictureSource &source, const Presets &presets);
 
-// The files that the words of words_of() name: IN, and the values of options.
+// The files on which the picture of words_of() depends: IN, the values of options, each moment of a shutter, and the
+// aperture of a lens file. Throws UsageError for a pipe or device among them.
 std::vector<std::string> files_in(const Words &words);
 
 } // namespace sparselens

@@ -38,15 +38,20 @@ Json size_of(const ShownPixels &pixels) {
     return {{"width", pixels.width}, {"height", pixels.height}, {"channels", pixels.channels}};
 }
 
-std::string stem_of(const std::string &path) {
-    return path == "-" ? "picture" : std::filesystem::path(path).stem().stem().string();
+// The name of its file, without the placeholder of moments.
+std::string file_name(const std::string &input) {
+    const std::string name = input == "-" ? "picture" : std::filesystem::path(input).filename().string();
+    return names_moments(input) ? without_moment(name) : name;
+}
+
+std::string stem_of(const std::string &input) {
+    return std::filesystem::path(file_name(input)).stem().stem().string();
 }
 
 // The name of a file or sequence of pictures made from `input`; it differs from it by "dof", placed before the frame's
 // number if there is one.
 std::string output_name(const std::string &input, const std::string &ending) {
-    std::string name = input == "-" ? "picture" : std::filesystem::path(input).filename().string();
-    if (names_moments(input)) name = without_moment(std::move(name));
+    std::string name = file_name(input);
     for (const std::string_view last : {".exr", ".ldi"})
         if (name.ends_with(last) && name.size() > last.size()) name.resize(name.size() - last.size());
     const std::size_t dot = name.rfind('.');

@@ -21,35 +21,13 @@ namespace sparselens {
 
 namespace {
 
-// When installed, and in the build folder, programs lie in bin/ and modules in lib/ beside it.
-std::string beside_program(const std::string &module) {
-    std::error_code unknown;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    return (program.parent_path().parent_path() / SPARSELENS_MODULES / module).string();
-}
-
-// A program that loads this code from a library or a module may lie anywhere; modules then lie in lib/ of a folder
-// above that library. Empty if there is none.
-std::string above_this_code(const std::string &module) {
-    Dl_info found;
-    std::error_code unknown;
-    if (::dladdr(reinterpret_cast<const void *>(&above_this_code), &found) == 0) return {};
-    const auto library = std::filesystem::weakly_canonical(found.dli_fname, unknown);
-    for (auto folder = library.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
-        if (const auto path = folder / SPARSELENS_MODULES / module; std::filesystem::exists(path, unknown))
-            return path.string();
-    return {};
-}
-
 OiioModule load() {
-    const std::string name = SPARSELENS_OIIO_MODULE;
-    void *module = nullptr;
-    for (const std::string &path :
-         {beside_program(name), above_this_code(name), SPARSELENS_PREFIX "/" SPARSELENS_MODULES "/" + name})
-        if (!module && !path.empty()) module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    const std::string path = find_installed(SPARSELENS_MODULES "/" SPARSELENS_OIIO_MODULE);
+    void *module = path.empty() ? nullptr : ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void *entry = module ? ::dlsym(module, oiio_module_entry) : nullptr;
     if (!entry)
-        throw Error(std::string("cannot load OpenImageIO, which writes PNG, JPEG and TIFF: ") + ::dlerror());
+        throw Error(std::string("cannot load OpenImageIO, which writes PNG, JPEG and TIFF: ") +
+                    (path.empty() ? SPARSELENS_OIIO_MODULE " is not installed" : ::dlerror()));
     return reinterpret_cast<OiioModule (*)()>(entry)();
 }
 
@@ -122,6 +100,20 @@ bool is_shown_picture(const std::string &path) {
     const std::string extension = extension_of(path);
     if (extension.empty() || extension == "exr") return false;
     return oiio_module().support(extension.c_str()) != OiioModule::Support::none;
+}
+
+bool holds_linear_light(const std::string &path) {
+    static constexpr std::array formats{"hdr", "rgbe", "pfm"};
+    return is_among(formats, extension_of(path));
+}
+
+void drop_unwritten_coverage(const std::string &path, Image &image) {
+    const std::size_t alpha = find_channel(image.channels, "A");
+    if (alpha == npos || oiio_module().support(extension_of(path).c_str()) == OiioModule::Support::alpha)
+        return;
+    const auto plane = image.values.begin() + std::ptrdiff_t(alpha * image.windows.pixels());
+    image.values.erase(plane, plane + std::ptrdiff_t(image.windows.pixels()));
+    image.channels.erase(image.channels.begin() + std::ptrdiff_t(alpha));
 }
 
 ShownPixels shown_pixels(const std::string &name, const Image &image) {

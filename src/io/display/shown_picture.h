@@ -12,6 +12,12 @@ namespace sparselens {
 // Whether the extension is that of a format that OpenImageIO can write, other than OpenEXR.
 bool is_shown_picture(const std::string &path);
 
+// Whether the format holds linear light, as Radiance's .hdr does, and not colours for a display.
+bool holds_linear_light(const std::string &path);
+
+// Drops A if the format has none, before colours are encoded: the picture is then that over black.
+void drop_unwritten_coverage(const std::string &path, Image &image);
+
 // The bytes of a file of that format (an extension, without the dot): R, G and B (display values, premultiplied) of the
 // display window, black outside the data window, with 8 bits, or 16 in TIFF and DPX. 0 and less become 0, 1 and more
 // the largest value, NaN becomes 0. If A is below 1 anywhere and the format has alpha, A is written too and the colours

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace sparselens {
 
@@ -53,6 +55,16 @@ void write_all(const std::string &path, int descriptor, const char *data, std::s
     }
 }
 
+// The mode of a file that a new one replaces; nothing if there is none. Throws Error if it is read-only: renaming would
+// replace it all the same.
+std::optional<mode_t> mode_to_keep(const std::string &target) {
+    struct stat info {};
+    if (::stat(target.c_str(), &info) != 0) return {};
+    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+        fail_of_system(target, "cannot replace");
+    return info.st_mode & 07777;
+}
+
 bool is_regular_or_new(const std::string &path) {
     struct stat info {};
     return ::stat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode);
@@ -73,6 +85,20 @@ std::filesystem::path follow_links(const std::string &path) {
 }
 
 } // namespace
+
+std::string find_installed(const std::string &relative) {
+    namespace fs = std::filesystem;
+    std::error_code unknown;
+    Dl_info code{};
+    ::dladdr(reinterpret_cast<const void *>(&find_installed), &code);
+    for (const fs::path &of : {fs::read_symlink("/proc/self/exe", unknown),
+                               fs::weakly_canonical(code.dli_fname ? code.dli_fname : "", unknown)})
+        for (fs::path folder = of.parent_path(); folder != folder.parent_path();
+             folder = folder.parent_path())
+            if (fs::exists(folder / relative, unknown)) return (folder / relative).string();
+    const fs::path installed = fs::path(SPARSELENS_PREFIX) / relative;
+    return fs::exists(installed, unknown) ? installed.string() : "";
+}
 
 bool is_standard_stream(const std::string &path) { return path == "-"; }
 
@@ -131,6 +157,7 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
         const std::filesystem::path target = follow_links(path);
         target_ = target.string();
         if (target.has_parent_path()) make_folder(target.parent_path().string());
+        const std::optional<mode_t> mode = mode_to_keep(target_);
         constexpr std::size_t longest = 200; // file systems take 255, the rest of the name included
         const std::string name = target.filename().string().substr(0, longest);
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
@@ -139,6 +166,8 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
             descriptor_ = ::open(temporary_->path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno != EEXIST) break;
         }
+        if (mode && descriptor_ >= 0)
+            (void)::fchmod(descriptor_, *mode); // as far as the file system has modes
     }
     if (descriptor_ < 0) {
         temporary_.reset();

@@ -1,7 +1,8 @@
 // Input and output of bytes for the EXR readers and writers: whole files, pipes and standard streams.
 //
 // Output is atomic: it is written to a temporary file beside the target (.NAME.PID-N.partial; a long NAME is cut off),
-// which commit() renames. Missing folders are made, symbolic links are followed, and the umask applies. Devices, pipes
+// which commit() renames. Missing folders are made and symbolic links are followed. A replaced file keeps its mode, and
+// must be writable; the umask applies to a new one. Devices, pipes
 // and standard output (`-`) cannot be replaced by renaming: their bytes are held in memory and written by commit().
 // Throws Error, naming the file and the reason of the system.
 #pragma once
@@ -83,6 +84,10 @@ private:
     int descriptor_ = -1;                   // of the temporary file, or of the target itself
     std::unique_ptr<Buffer> buffer_;
 };
+
+// The file or folder with this path relative to a folder above the program, or above the library or module that holds
+// this code, or else to the installation's prefix; empty if there is none.
+std::string find_installed(const std::string &relative);
 
 // Whether `path` stands for standard input or output.
 bool is_standard_stream(const std::string &path);
