@@ -15,12 +15,17 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <locale>
+#include <mutex>
 #include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace sparselens {
 
@@ -40,7 +45,8 @@ extern "C" void stop(int number) {
 }
 
 void handle_signals() {
-    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error to report, not a silent end
+    // A closed pipe and a file that grows too large are errors to report, not a silent end.
+    for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
@@ -162,6 +168,27 @@ std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory) 
                                4);
 }
 
+namespace {
+
+// How many threads the system lets the process start, `most` at most: containers and farms limit processes, and oneTBB
+// ends the process if it cannot start one.
+int threads_that_start(int most) {
+    std::mutex waiting;
+    std::vector<std::thread> started;
+    {
+        const std::lock_guard until_all_started(waiting);
+        try {
+            while (int(started.size()) < most)
+                started.emplace_back([&waiting] { const std::lock_guard released(waiting); });
+        } catch (const std::system_error &) { // no more
+        }
+    }
+    for (std::thread &thread : started) thread.join();
+    return int(started.size());
+}
+
+} // namespace
+
 class Process::ThreadLimit {
 public:
     explicit ThreadLimit(int threads)
@@ -173,7 +200,9 @@ private:
 
 Process::Process(const ProcessOptions &options, const ToolContext &tool) {
     keep_freed_memory();
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const int wanted = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    // Of n threads, oneTBB starts n - 1 and OpenEXR n.
+    const int threads = wanted > 1 ? std::max(1, (threads_that_start(2 * wanted - 1) + 1) / 2) : 1;
     threads_ = std::make_unique<ThreadLimit>(threads);
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
     set_memory_limit(options.max_memory);
@@ -181,7 +210,8 @@ Process::Process(const ProcessOptions &options, const ToolContext &tool) {
     tool.say(fmt::format("threads: {}", threads));
 }
 
-Process::~Process() = default;
+// The limit outlives the object: oneTBB starts threads when a limit ends, and the process does, too.
+Process::~Process() { (void)threads_.release(); }
 
 int exit_code_of(const std::string &prefix, const std::function<void()> &work) {
     try {
