@@ -77,11 +77,13 @@ Image front_depth(const Ldi &ldi) {
 View front_view(const Ldi &ldi, const std::string &name) {
     std::vector<std::size_t> from; // channels
     std::vector<Channel> channels;
-    for (const std::size_t k : find_rgb(ldi.channels))
-        if (k != npos) {
-            from.push_back(k);
-            channels.push_back(ldi.channels[k]);
-        }
+    const auto take = [&](std::size_t k) {
+        if (k == npos) return;
+        from.push_back(k);
+        channels.push_back(ldi.channels[k]);
+    };
+    for (const std::size_t k : find_rgb(ldi.channels)) take(k);
+    take(ldi.alpha());
     View view{name, Image(ldi.windows, channels), std::vector<float>(ldi.windows.pixels())};
     for (std::size_t pixel = 0; pixel < view.z.size(); ++pixel) {
         const std::uint64_t front = ldi.begin[pixel];

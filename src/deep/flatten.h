@@ -22,7 +22,7 @@ float front_depth(const Ldi &ldi, const Imath::V2i &pixel);
 inline constexpr float depth_of_nothing = std::numeric_limits<float>::infinity();
 Image front_depth(const Ldi &ldi);
 
-// R, G and B of the front sample, as far as the LDI has them, and its planar depth; 0 if there is no sample.
+// R, G, B and A of the front sample, as far as the LDI has them, and its planar depth; 0 if there is no sample.
 View front_view(const Ldi &ldi, const std::string &name);
 
 // The signed CoC radius of the front sample, for each pixel. An empty pixel is background at infinity.

@@ -162,6 +162,56 @@ bool looks_unpremultiplied(const EdgeFall &fall) {
 
 namespace {
 
+constexpr double most_edges = 0.8; // of the pixels at soft edges
+
+// Adds, for the pixels at the edge that begins at `walk`, the depth b behind, relative to the surface's.
+void add_depths_behind(const Walk &walk, std::span<const float> z, std::vector<double> &behind) {
+    const double surface = double(z[walk.pixel(0)]);
+    if (walk.coverage(0) < 1 - nothing || !std::isfinite(surface)) return;
+    for (std::size_t i = 1; walk.reaches(i); ++i) {
+        const double a = walk.coverage(i), here = double(z[walk.pixel(i)]);
+        if (!(a > nothing && a < walk.coverage(i - 1)) || !std::isfinite(here)) return;
+        if (a >= 0.1 && a <= 0.9) behind.push_back((here / surface - a) / (1 - a));
+    }
+}
+
+} // namespace
+
+EdgeDepths depths_at_edges(const View &view) {
+    const FlatPixels pixels = flat_pixels(view);
+    if (pixels.alpha.empty()) return {};
+    std::vector<double> behind;
+    visit_lines(pixels.grid, [&](const PictureLine &line) {
+        for (std::size_t i = 0; i < line.length; ++i)
+            for (const int step : {1, -1}) add_depths_behind({pixels, line, i, step}, view.z, behind);
+    });
+    if (behind.empty()) return {};
+    const auto count = [&](const auto &is) { return std::size_t(std::ranges::count_if(behind, is)); };
+    EdgeDepths found{behind.size(), count([](double b) { return std::abs(b) < 0.1; }), 0};
+    if (const double usual = median(behind); usual > 1.5)
+        found.averaged = count([=](double b) { return std::abs(b / usual - 1) < 0.05; });
+    return found;
+}
+
+bool looks_multiplied(const EdgeDepths &depths) {
+    return depths.pixels >= enough_pixels && double(depths.multiplied) >= most_edges * double(depths.pixels);
+}
+
+bool looks_averaged(const EdgeDepths &depths) {
+    return depths.pixels >= enough_pixels && double(depths.averaged) >= most_edges * double(depths.pixels);
+}
+
+bool lacks_coverage(const View &view) {
+    const FlatPixels pixels = flat_pixels(view);
+    if (pixels.alpha.empty() || std::ranges::any_of(pixels.alpha, [](float a) { return a != 0; }))
+        return false;
+    for (std::size_t i = 0; i < view.z.size(); ++i)
+        if (pixels.colour(i) != Imath::V3d(0, 0, 0)) return true;
+    return false;
+}
+
+namespace {
+
 constexpr std::size_t enough_slopes = 200;
 constexpr double mostly = 0.5;           // of the slopes
 constexpr double hardly = 0.1;           // of the slopes

@@ -48,6 +48,25 @@ EdgeFall fall_at_edges(const FlatPixels &pixels);
 
 bool looks_unpremultiplied(const EdgeFall &fall);
 
+// Whether depth follows coverage along soft edges, as if it had been filtered or premultiplied like a colour.
+//
+// From an opaque pixel of depth z0 outwards, where coverage A falls, the depth stays z0 if each pixel has that of its
+// surface. A depth that was averaged with one of b behind is A z0 + (1 - A) b; b is 0 if it was multiplied by A.
+struct EdgeDepths {
+    std::size_t pixels = 0;     // of such edges, with A from 0.1 to 0.9
+    std::size_t multiplied = 0; // those with b near 0
+    std::size_t averaged = 0;   // those with b far behind z0, and the same for most
+};
+
+EdgeDepths depths_at_edges(const View &view);
+
+// Whether four of five such pixels, 50 or more, are explained so.
+bool looks_multiplied(const EdgeDepths &depths);
+bool looks_averaged(const EdgeDepths &depths);
+
+// Whether a picture that shows something has a coverage of 0 everywhere.
+bool lacks_coverage(const View &view);
+
 // Whether depths are planar, or linear in 1 / z: 1 / z itself, or a depth buffer's number from 0 to 1.
 //
 // On a plane 1 / z is linear across the picture. So in the middle between two pixels of one surface, z is the harmonic

@@ -101,6 +101,16 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
         said.push_back(view.name +
                        ": its edges stay as bright as the surfaces where A falls, so its colours seem to be "
                        "unpremultiplied: if they are, give `unpremultiplied`, or write them multiplied by A");
+    if (lacks_coverage(view))
+        said.push_back(view.name +
+                       ": its coverage (A) is 0 everywhere, so all is light that hides nothing: if it "
+                       "shows surfaces, write their coverage, or leave A out if all is opaque");
+    if (const EdgeDepths edges = depths_at_edges(view); looks_multiplied(edges))
+        said.push_back(view.name + ": its depth is multiplied by its coverage at soft edges: divide it by A");
+    else if (looks_averaged(edges) && !facts.depth_filtered)
+        said.push_back(view.name +
+                       ": its depth is averaged with what lies behind at soft edges: render depth without a "
+                       "filter, as the closest or the first sample of each pixel");
     if (looks_encoded(mixing_at_edges(view)))
         said.push_back(view.name +
                        ": its colours mix at edges as sRGB codes do, not as light does: if they are encoded "
