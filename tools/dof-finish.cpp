@@ -1,6 +1,7 @@
 // dof-finish: combines a gathered picture and a few rays through the same lens into one picture that is nearer to the
 // truth.
 #include "base/error.h"
+#include "chain/colours.h"
 #include "chain/notices.h"
 #include "finish/finish_picture.h"
 #include "finish/lens_check.h"
@@ -24,9 +25,22 @@ using namespace sparselens;
 
 namespace {
 
-FlatFile read(const std::string &path, const ToolContext &tool) {
+// With linear colours.
+FlatFile read(const std::string &path, const FinishCommand &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path);
     tell_reading(tool.tell(), path, file.notes, file.warnings);
+    file.header = to_linear(tool.tell(), options.colour, path, file.header, file.image);
+    return file;
+}
+
+// A render, with colours in the space of the gathered picture.
+FlatFile read_render(const std::string &path, const FlatFile &gathered, const FinishCommand &options,
+                     const ToolContext &tool) {
+    FlatFile file = read(path, options, tool);
+    if (!same_chromaticities(gathered.header, file.header)) {
+        tool.tell()({NoticeKind::converted, path, {options.gathered}});
+        to_space_of(options.colour, gathered.header, file.header, file.image);
+    }
     return file;
 }
 
@@ -43,16 +57,16 @@ std::vector<double> stated_samples(const FinishCommand &options, const ToolConte
 
 // Adds the renders one after the other, so that only their sum stays in memory. `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
-                   const FlatFile &gathered, const ToolContext &tool,
+                   const FlatFile &gathered, const FinishCommand &options, const ToolContext &tool,
                    void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered.image);
     Camera lens = read_camera(gathered.header);
     if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        FlatFile file = read(paths[k], tool);
+        FlatFile file = read_render(paths[k], gathered, options, tool);
         if (const auto other = lens_differences(lens, read_camera(file.header)); !other.empty())
-            warn(tool, fmt::format("{}: another lens than that of the gathered picture: {}", paths[k],
-                                   fmt::join(other, "; ")));
+            warn(tool, fmt::format("{}: another lens or camera than that of the gathered picture: {}",
+                                   paths[k], fmt::join(other, "; ")));
         (halves.*add)({paths[k], std::move(file.image), samples[k]});
     }
     return halves;
@@ -83,12 +97,12 @@ std::vector<FrameAround> read_around(const FinishCommand &options, const std::ve
                                      const FlatFile &gathered, const ToolContext &tool) {
     std::vector<FrameAround> around;
     for (std::vector<std::string> &names : names_around(options, tool)) {
-        FlatFile file = read(names[0], tool);
+        FlatFile file = read_render(names[0], gathered, options, tool);
         if (file.image.windows.display != gathered.image.windows.display)
             throw Error(names[0] + ": its size differs from that of " + options.gathered);
         names.erase(names.begin());
-        around.push_back(
-            {std::move(file.image), added_up(names, samples, gathered, tool, &TwoHalves::add_noisy)});
+        around.push_back({std::move(file.image),
+                          added_up(names, samples, gathered, options, tool, &TwoHalves::add_noisy)});
     }
     tool.say(fmt::format("frames around: {}", around.size()));
     return around;
@@ -141,19 +155,23 @@ void run(const FinishCommand &options, const ToolContext &tool) {
         throw UsageError(
             "one render alone cannot tell its noise from what it shows: render the same picture again "
             "with another seed, and give both");
-    FlatFile file = read(options.gathered, tool);
+    FlatFile file = read(options.gathered, options, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;
-    PictureToFinish picture{{}, added_up(options.renders, samples, file, tool, &TwoHalves::add_noisy)};
+    PictureToFinish picture{{},
+                            added_up(options.renders, samples, file, options, tool, &TwoHalves::add_noisy)};
     if (!options.denoised.empty())
-        picture.denoised.push_back(added_up(options.denoised, samples, file, tool, &TwoHalves::add));
-    for (const std::string &path : options.others) picture.others.push_back(read(path, tool).image);
+        picture.denoised.push_back(added_up(options.denoised, samples, file, options, tool, &TwoHalves::add));
+    for (const std::string &path : options.others)
+        picture.others.push_back(read_render(path, file, options, tool).image);
     if (options.neighbours > 0) picture.around = read_around(options, samples, file, tool);
     picture.gathered = std::move(file.image);
     const auto halves = picture.rays.samples();
     if (picture.rays.missing() > 0)
-        warn(tool, fmt::format("{} pixels of the renders are missing or not finite: they stay as gathered",
-                               picture.rays.missing()));
+        warn(tool,
+             fmt::format(
+                 "{} pixels of the renders are missing, not finite or beyond 1e8: they stay as gathered",
+                 picture.rays.missing()));
     FinishedPicture finished = finish_picture(std::move(picture), *tool.progress);
     for (const std::string &text : finished.mistakes.warnings()) warn(tool, text);
     if (!finished.as_gathered.empty())

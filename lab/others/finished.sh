@@ -71,7 +71,7 @@ ready() {
     finish finished_$rays $rays finished "$(seconds "$at/camera.json" "${names[@]/%/.exr}")" "$first.exr" "$second.exr" $3,$4 \
         "$(seconds "$cost" "$(basename "$first").exr" "$(basename "$second").exr")"
     timed gather "${words[@]}" --denoised "${denoised[@]}"
-    options=(--denoised "$first.denoised.exr,$second.denoised.exr")
+    options=(--denoised "$first.denoised.exr" "$second.denoised.exr")
     finish finished_$rays.denoised $rays 'finished, denoised' "$(seconds "$at/camera.json" "${names[@]/%/.denoised}")" "$first.exr" "$second.exr" $3,$4 \
         "$(seconds "$cost" "$(basename "$first").denoised" "$(basename "$second").denoised")" "${options[@]}"
 }
@@ -124,7 +124,7 @@ for words in "${divisions[@]}"; do
     [ $at != finished-80 ] || mv views.ldi.exr finished_80.ldi.exr
     timed gather $at/center.exr $at/view_[0-3].exr --denoised $at/center.denoised.exr $at/view_[0-3].denoised.exr
     finish ${name}_$rays.denoised $rays "finished, denoised" "$(seconds $of center.denoised view_{0..3}.denoised)" $renders \
-        "$(seconds $of rays_1.denoised rays_2.denoised)" --denoised $at/rays_1.denoised.exr,$at/rays_2.denoised.exr
+        "$(seconds $of rays_1.denoised rays_2.denoised)" --denoised $at/rays_1.denoised.exr $at/rays_2.denoised.exr
 done
 advise
 

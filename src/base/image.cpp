@@ -14,6 +14,13 @@
 
 namespace sparselens {
 
+std::string size_text(const Imath::Box2i &window) {
+    const Grid grid(window);
+    const std::string size = fmt::format("{}x{}", grid.width(), grid.height());
+    return window.min == Imath::V2i(0, 0) ? size
+                                          : fmt::format("{} at {},{}", size, window.min.x, window.min.y);
+}
+
 Windows windows_of_size(int width, int height) {
     const Imath::Box2i box({0, 0}, {width - 1, height - 1});
     return {box, box, 1};

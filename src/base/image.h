@@ -75,6 +75,9 @@ struct Windows {
     bool operator==(const Windows &) const = default;
 };
 
+// The size of a window for messages: "160x90", or "160x90 at -5,0" if it does not begin at 0,0.
+std::string size_text(const Imath::Box2i &window);
+
 // The display window and the data window are both [0, width) x [0, height).
 Windows windows_of_size(int width, int height);
 

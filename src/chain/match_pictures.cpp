@@ -45,10 +45,8 @@ Match::Match(const OpenedLdi &in_, const Image &plate_, const std::string &plate
     const Imath::Box2i display = reduced(in.ldi.windows.display, across);
     if (plate.windows.display != display)
         throw Error(
-            fmt::format("{}: its display window is {} x {}, that of {} is {} x {}: give a plate of the "
-                        "same size",
-                        plate_name, plate.windows.display_width(), plate.windows.display_height(), in.name,
-                        Grid(display).width(), Grid(display).height()));
+            fmt::format("{}: its display window is {}, that of {} is {}: give a plate of the same size",
+                        plate_name, size_text(plate.windows.display), in.name, size_text(display)));
     if (!(resolve_radius(camera) > 0))
         throw UsageError("the lens of the LDI has no blur to compare: give `fstop`");
     region = common_pixels(request.region.value_or(display), display);

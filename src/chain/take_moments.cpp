@@ -230,14 +230,6 @@ bool is_far_from(double one, double other) {
     return std::max(one, other) > most_change * std::min(one, other);
 }
 
-std::string size_of(const Windows &windows) {
-    return fmt::format("{}x{}", windows.display_width(), windows.display_height());
-}
-
-std::optional<Imf::Chromaticities> chromaticities_of(const Imf::Header &header) {
-    return Imf::hasChromaticities(header) ? std::optional(Imf::chromaticities(header)) : std::nullopt;
-}
-
 [[noreturn]] void refuse(const std::string &first, const std::string &other, const std::string &what) {
     throw Error(fmt::format("{}: {} than {}; the moments of a shutter are of one shot", other, what, first));
 }
@@ -247,7 +239,7 @@ std::optional<Imf::Chromaticities> chromaticities_of(const Imf::Header &header) 
 void require_same_size(const NamedWindows &first, const NamedWindows &other) {
     const Windows &size = first.windows, &others = other.windows;
     if (size.display != others.display)
-        refuse(first.name, other.name, fmt::format("its size of {} is another", size_of(others)));
+        refuse(first.name, other.name, fmt::format("its size of {} is another", size_text(others.display)));
     if (size.pixel_aspect != others.pixel_aspect)
         refuse(first.name, other.name,
                fmt::format("its pixel aspect of {:g} is another", others.pixel_aspect));
@@ -258,7 +250,7 @@ void require_same_shutter(const NamedPicture &first, const NamedPicture &other) 
     require_same_size({first.name, a.image.windows}, {other.name, b.image.windows});
     const auto refused = [&](const std::string &what) { refuse(first.name, other.name, what); };
     if (a.image.channels != b.image.channels) refused("it has other channels");
-    if (chromaticities_of(a.header) != chromaticities_of(b.header)) refused("it is in another colour space");
+    if (!same_chromaticities(a.header, b.header)) refused("it is in another colour space");
     if (is_far_from(a.lens.focal_px, b.lens.focal_px))
         refused(fmt::format("its focal length of {:g} pixels is another", b.lens.focal_px));
     if (is_far_from(a.lens.radius, b.lens.radius))

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render has no value
 
-// Brighter than any light; squares of larger values overflow.
+// Fourth powers of larger values overflow, so that brighter pixels stay as gathered.
 constexpr float largest = 1e8f;
 
 bool is_told(float value) { return std::abs(value) <= largest; } // false for NaN
@@ -50,12 +50,17 @@ std::size_t untold(const Values &values, const Windows &windows) {
 }
 
 void check_window(const Render &render, const Windows &windows) {
-    if (render.image.windows.display == windows.display) return;
-    throw Error(fmt::format("{}: its picture is {}x{}, the gathered one {}x{}: render both with the same "
-                            "camera and size",
-                            render.name, render.image.windows.display_width(),
-                            render.image.windows.display_height(), windows.display_width(),
-                            windows.display_height()));
+    const Windows &own = render.image.windows;
+    if (own.display != windows.display)
+        throw Error(
+            fmt::format("{}: its picture is {}, the gathered one {}: render both with the same camera and "
+                        "size",
+                        render.name, size_text(own.display), size_text(windows.display)));
+    if (own.pixel_aspect != windows.pixel_aspect)
+        throw Error(
+            fmt::format("{}: its pixel aspect ratio is {:g}, that of the gathered picture {:g}: render "
+                        "both with the same camera",
+                        render.name, own.pixel_aspect, windows.pixel_aspect));
 }
 
 // Whether two renders have the same noise. Pixels that equal their neighbour do not tell, because they may have none; of
@@ -77,6 +82,7 @@ void settle(Colours &gathered, std::vector<Halves *> halves) {
         parallel_ranges(gathered[c].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 float &g = gathered[c][i];
+                if (std::isfinite(g)) g = std::clamp(g, -largest, largest);
                 if (!is_told(g)) g = (*halves[0])[0][c][i];
                 if (!is_told(g)) g = 0;
             }
@@ -235,7 +241,10 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)
             for (float &alpha : result.picture[0]) alpha = std::clamp(alpha, 0.0f, 1.0f);
         for (std::size_t k = 0; k < channels.size(); ++k)
-            std::ranges::copy(result.picture[k], picture.gathered.plane(channels[k]).begin());
+            std::ranges::transform(result.picture[k], picture.gathered.plane(channels[k]),
+                                   picture.gathered.plane(channels[k]).begin(), [](float made, float was) {
+                                       return std::isfinite(was) && !is_told(was) ? was : made;
+                                   });
     }
     finished.image = std::move(picture.gathered);
     return finished;

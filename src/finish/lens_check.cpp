@@ -168,6 +168,13 @@ std::string with_blades(double blades) {
     return blades > 0 ? fmt::format("{:g} blades", blades) : std::string("no blades");
 }
 
+// Whether two matrices differ by more than the rounding of floats.
+bool differ(const Imath::M44d &a, const Imath::M44d &b) {
+    double largest = 1;
+    for (int i = 0; i < 16; ++i) largest = std::max(largest, std::abs(a.getValue()[i]));
+    return !a.equalWithAbsError(b, 1e-5 * largest);
+}
+
 } // namespace
 
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render) {
@@ -178,6 +185,9 @@ std::vector<std::string> lens_differences(const Camera &gathered, const Camera &
     const auto focus = focus_metres(gathered), other_focus = focus_metres(render);
     if (focus && other_focus && differ(*focus, *other_focus))
         found.push_back(fmt::format("focus at {:.4g} m, not {:.4g}", *other_focus, *focus));
+    if (gathered.world_to_camera && render.world_to_camera &&
+        differ(*gathered.world_to_camera, *render.world_to_camera))
+        found.emplace_back("a camera that stands or looks elsewhere (worldToCamera)");
     const LookValues &looks = gathered.looks, &other = render.looks;
     const double squeeze = looks.squeeze.value_or(1), other_squeeze = other.squeeze.value_or(squeeze);
     if (differ(squeeze, other_squeeze))

@@ -30,8 +30,9 @@ struct LensMistakes {
 
 LensMistakes check_lens(const LayerToFinish &layer);
 
-// Compares the lenses of a gathered picture and a render by their headers. The differences, in words: the aperture's
-// radius, its blades, their rotation, its squeeze, and the focus distance. Values that a header lacks are not compared.
+// Compares the lenses and cameras of a gathered picture and a render by their headers. The differences, in words: the
+// aperture's radius, its blades, their rotation, its squeeze, the focus distance, and where the camera stands and looks.
+// Values that a header lacks are not compared.
 // Blades are compared if both headers name them, 0 for none.
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render);
 

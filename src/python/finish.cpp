@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "chain/colours.h"
 #include "finish/finish_picture.h"
 #include "io/exr/exr_header.h"
 #include "python/job.h"
@@ -56,10 +57,13 @@ void check_count(const char *name, std::size_t count, std::size_t rays) {
 
 // `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector<double> &samples,
-                   const Image &gathered, void (TwoHalves::*add)(const Render &)) {
-    TwoHalves halves(gathered);
-    for (std::size_t k = 0; k < pictures.size(); ++k)
-        (halves.*add)({fmt::format("{}[{}]", name, k), pictures[k]->image, samples[k]});
+                   const PictureObject &gathered, void (TwoHalves::*add)(const Render &)) {
+    TwoHalves halves(gathered.image);
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+        Image image = pictures[k]->image;
+        to_space_of({}, gathered.header, pictures[k]->header, image);
+        (halves.*add)({fmt::format("{}[{}]", name, k), std::move(image), samples[k]});
+    }
     return halves;
 }
 
@@ -107,13 +111,12 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     const py::object progress = keywords.take("progress");
     keywords.done();
     FinishedPicture made = job<FinishedPicture>(progress, [&](Progress &said) {
-        PictureToFinish picture{in.image,
-                                added_up("rays", renders, samples, in.image, &TwoHalves::add_noisy)};
+        PictureToFinish picture{in.image, added_up("rays", renders, samples, in, &TwoHalves::add_noisy)};
         if (!denoised.empty())
-            picture.denoised.push_back(added_up("denoised", denoised, samples, in.image, &TwoHalves::add));
+            picture.denoised.push_back(added_up("denoised", denoised, samples, in, &TwoHalves::add));
         for (const auto &[other, of_other] : around)
             picture.around.push_back(
-                {other->image, added_up("around", of_other, samples, in.image, &TwoHalves::add_noisy)});
+                {other->image, added_up("around", of_other, samples, in, &TwoHalves::add_noisy)});
         return finish_picture(std::move(picture), said);
     });
     for (const std::string &text : made.mistakes.warnings()) warn(text);

@@ -65,7 +65,7 @@ for twice in "$one $one" "$one $one $two $two" "$one $two $one $two" "$one copy.
 done
 exits 0 "$finish" gathered.exr $one $two --gathered $truth -o other.exr
 holds "$(decibels other.exr $truth) > $db + 3" "--gathered"
-exits 0 "$finish" gathered.exr $one $two --denoised $truth,$truth -o denoised.exr
+exits 0 "$finish" gathered.exr $one $two --denoised $truth $truth -o denoised.exr
 same denoised.exr other.exr "--denoised and --gathered of the same pictures"
 fails_saying 2 '--denoised.*1 pictures for 2 renders' "$finish" gathered.exr $one $two -o x.exr --denoised $one
 
@@ -98,7 +98,7 @@ exits 0 "$finish" gathered.exr $one $two -o told.exr --no-history
 if history told.exr | grep -q dof-finish; then fail "--no-history: $(history told.exr)"; fi
 export SPARSELENS_NO_HISTORY=1
 fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one b.0001.exr -o b.0001.exr
-for input in --denoised=$one,b.0001.exr --gathered=b.0001.exr; do
+for input in "--denoised $one b.0001.exr" --gathered=b.0001.exr; do
     fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
 done
 

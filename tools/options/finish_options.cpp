@@ -37,10 +37,8 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
         ->type_name("N,N,...")
         ->delimiter(',')
         ->check(number(above_0));
-    app.add_option("--denoised", options.denoised,
-                   "Denoised version of each render, in the same order, comma-separated")
-        ->type_name("FILE,FILE,...")
-        ->delimiter(',');
+    app.add_option("--denoised", options.denoised, "Denoised version of each render, in the same order")
+        ->type_name("FILE...");
     app.add_option("--gathered", options.others,
                    "Another gathered picture of the same lens, for example of denoised views, to choose from")
         ->type_name("FILE")
