@@ -42,40 +42,72 @@ Layers coloured_layers(std::span<const Channel> channels) {
     return layers;
 }
 
+// The words of a name: "VRayNormals" has v, ray and normals; "world_normal" has world and normal.
+std::vector<std::string> words_of(std::string_view name) {
+    const auto upper = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+    std::vector<std::string> words;
+    bool within = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool letter = std::isalpha(static_cast<unsigned char>(name[i])) != 0;
+        const bool hump = i > 0 && upper(name[i]) &&
+                          (!upper(name[i - 1]) || (i + 1 < name.size() && std::islower(name[i + 1]) != 0));
+        if (letter && (!within || hump)) words.emplace_back();
+        if (letter) words.back() += lower_case(std::string(1, name[i]));
+        within = letter;
+    }
+    return words;
+}
+
+// Whether a layer, or a channel without one, has a name of data.
+bool names_data(const std::string &name) {
+    static constexpr std::array whole{"n",
+                                      "ng",
+                                      "ns",
+                                      "nn",
+                                      "p",
+                                      "pref",
+                                      "rest",
+                                      "point",
+                                      "uv",
+                                      "uvs",
+                                      "uvw",
+                                      "st",
+                                      "mv",
+                                      "mv2d",
+                                      "mvec",
+                                      "depth",
+                                      "z",
+                                      "pz",
+                                      "zdepth",
+                                      "pworld",
+                                      "pcam",
+                                      "pobj",
+                                      "ncam",
+                                      "nobj",
+                                      "dpdu",
+                                      "dpdv",
+                                      "dudv",
+                                      "hitp",
+                                      "denoising depth",
+                                      "nworld"};
+    static constexpr std::array parts{"normal",  "normals",  "position",      "positions",   "velocity",
+                                      "motion",  "vector",   "vectors",       "motionvec",   "motionvector",
+                                      "tangent", "tangents", "motionvectors", "worldnormal", "worldposition"};
+    static constexpr std::array spaces{"world", "camera", "cam", "object", "obj", "ref", "eye", "local"};
+    const std::string last = last_component(name);
+    if (is_among(whole, last)) return true;
+    const std::vector<std::string> words = words_of(split(name).last);
+    if (std::ranges::any_of(words, [](const std::string &word) { return is_among(parts, word); }))
+        return true;
+    return words.size() == 2 && (words[0] == "p" || words[0] == "n") && is_among(spaces, words[1]);
+}
+
 bool is_data(const std::string &name, const Layers &with_x) {
     static constexpr std::array depths{"z", "zback"};
     static constexpr std::array coordinates{"x", "u", "v", "w"};
-    static constexpr std::array layers{"n",
-                                       "ng",
-                                       "ns",
-                                       "normal",
-                                       "normals",
-                                       "p",
-                                       "pref",
-                                       "position",
-                                       "uv",
-                                       "uvs",
-                                       "st",
-                                       "motion",
-                                       "motionvec",
-                                       "vector",
-                                       "vectors",
-                                       "motionvector",
-                                       "motionvectors",
-                                       "motion vector",
-                                       "velocity",
-                                       "depth",
-                                       "zdepth",
-                                       "z",
-                                       "denoising normal",
-                                       "denoising depth",
-                                       "point",
-                                       "worldnormal",
-                                       "worldposition"};
     const auto [layer, last] = split(name);
     const std::string lower = lower_case(last);
-    if (is_among(depths, lower) || is_among(layers, last_component(layer.empty() ? last : layer)))
-        return true;
+    if (is_among(depths, lower) || names_data(layer.empty() ? last : layer)) return true;
     if (layer.empty()) return false;
     return is_among(coordinates, lower) || (lower == "y" && with_x.contains(layer));
 }
@@ -114,11 +146,11 @@ struct MattePlace {
 std::optional<MattePlace> matte_place(const Channel &channel, std::span<const std::string> mattes) {
     const auto [layer, last] = split(channel.name);
     const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-    if (channel.type != PixelType::float32 || layer.size() < 3 || last.empty()) return {};
+    if (channel.type == PixelType::uint32 || layer.size() < 3 || last.empty()) return {};
     if (!is_digit(layer.end()[-1]) || !is_digit(layer.end()[-2])) return {};
     const std::string matte = layer.substr(0, layer.size() - 2);
     const bool named = std::ranges::find(mattes, matte) != mattes.end();
-    if (!named && !last_component(matte).starts_with("crypto")) return {};
+    if (!named && last_component(matte).find("crypto") == std::string::npos) return {};
     static constexpr std::array letters{"r", "g", "b", "a"};
     static constexpr std::array words{"red", "green", "blue", "alpha"};
     for (int c = 0; c < 4; ++c)
@@ -150,7 +182,12 @@ ColourPart colour_part(const Channel &channel) {
                                                      : ColourPart::none;
 }
 
-void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
+bool is_named(const Channel &channel, std::string_view name) {
+    const std::string layer = split(channel.name).layer;
+    return name == channel.name || (!layer.empty() && (name == layer || name == split(layer).last));
+}
+
+void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes, const StatedKinds &stated) {
     const Layers with_x = layers_with("x", channels), coloured = coloured_layers(channels);
     const auto is_id = [&](const Channel &channel) {
         const IdWord word = id_word(channel.name);
@@ -158,8 +195,15 @@ void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes
                (word == IdWord::channel ||
                 (word == IdWord::layer && !coloured.contains(split(channel.name).layer)));
     };
+    const auto is_among_names = [](const Channel &channel, const std::vector<std::string> &names) {
+        return std::ranges::any_of(names, [&](const std::string &name) { return is_named(channel, name); });
+    };
     for (Channel &channel : channels) {
-        if (const auto place = matte_place(channel, mattes)) {
+        if (is_among_names(channel, stated.light))
+            channel.kind = ChannelKind::light;
+        else if (is_among_names(channel, stated.data))
+            channel.kind = ChannelKind::data;
+        else if (const auto place = matte_place(channel, mattes)) {
             channel.kind = place->kind;
             channel.matte = place->matte;
             channel.rank = place->rank;
@@ -182,12 +226,28 @@ std::string colour_name(std::string_view name) {
     return std::string(name);
 }
 
+namespace {
+
+// AR for RA, if GA and BA stand in the same layer: so do some renderers name the coverage of each colour. Else empty.
+std::string coverage_name(const std::string &name, const std::unordered_set<std::string> &all) {
+    const auto [layer, last] = split(name);
+    const std::string prefix = layer.empty() ? "" : layer + ".";
+    const auto is_there = [&](const char *other) { return all.contains(prefix + other); };
+    const bool is_one = last == "RA" || last == "GA" || last == "BA";
+    if (!is_one || !is_there("RA") || !is_there("GA") || !is_there("BA")) return {};
+    return prefix + "A" + last.substr(0, 1);
+}
+
+} // namespace
+
 std::vector<std::string> names_of_colours(std::span<const Channel> channels) {
     std::unordered_set<std::string> taken;
     for (const Channel &channel : channels) taken.insert(channel.name);
+    const std::unordered_set<std::string> in_file = taken;
     std::vector<std::string> names;
     for (const Channel &channel : channels) {
-        std::string name = is_light(channel) ? colour_name(channel.name) : channel.name;
+        std::string name = coverage_name(channel.name, in_file);
+        if (name.empty()) name = is_light(channel) ? colour_name(channel.name) : channel.name;
         names.push_back(taken.insert(name).second ? std::move(name) : channel.name);
     }
     return names;

@@ -5,8 +5,9 @@
 //   ids       integers, layers with names of ids (below), and pairs of a Cryptomatte (matte.h): they are only copied
 //
 // A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y only beside X: alone it is luminance), or Z or
-// ZBack, or if its layer has a name of data (N, P, normal, uv, motion vector, ...). It holds ids if its layer is named
-// IndexOB, objectid, *ID, ... and has no colours.
+// ZBack, or if its layer has a name of data: N, P, uv and the like, or a name with such a word (VRayNormals,
+// world_position, motionVector, Pworld). It holds ids if its layer is named IndexOB, objectid, *ID, ... and has no
+// colours. Users can state what a name does not tell.
 #pragma once
 
 #include <cstddef>
@@ -30,9 +31,16 @@ bool is_light(const Channel &channel); // coverage too
 enum class ColourPart { none, red, green, blue, coverage };
 ColourPart colour_part(const Channel &channel);
 
-// Sets the kind of each channel. `mattes` are the names that the header gives to Cryptomattes; layers of 32-bit floats
-// whose names begin with "crypto" and end in two digits are ranks of one, too.
-void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes = {});
+// Names of layers, or of channels, whose kind the user states; the last part of a layer's name is enough.
+struct StatedKinds {
+    std::vector<std::string> data = {}, light = {};
+};
+bool is_named(const Channel &channel, std::string_view name);
+
+// Sets the kind of each channel. `mattes` are the names that the header gives to Cryptomattes; layers of floats whose
+// names contain "crypto" and end in two digits are ranks of one, too.
+void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes = {},
+                const StatedKinds &stated = {});
 
 // Channels by their names: which are of one layer, and how other programs spell colours. Nuke writes red, green, blue
 // and alpha, also in layers (beauty.red); other programs write r, g, b and a. In this code they are always R, G, B and
@@ -43,7 +51,8 @@ struct Channel;
 std::string colour_name(std::string_view name);
 
 // The names by which the code knows the channels. The kinds of the channels must be set. Light and coverage get their
-// colour_name(), unless another channel has that name.
+// colour_name(), unless another channel has that name. RA, GA and BA, if all three exist, are AR, AG and AB
+// (deep/channel_alpha.h).
 std::vector<std::string> names_of_colours(std::span<const Channel> channels);
 
 // Groups the indices of the channels of light that may be calculated with. R, G and B of one layer form a group, in the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,13 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 }
 
 } // namespace
+
+std::vector<std::string> words_between_commas(const std::string &list) {
+    std::vector<std::string> words;
+    std::istringstream in(list);
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+}
 
 std::string nearest_word(std::string_view given, std::span<const std::string> words) {
     constexpr std::size_t longest = 100; // no word is longer, and the time is that squared

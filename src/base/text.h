@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sparselens {
 
@@ -15,6 +16,9 @@ std::string upper_case(std::string text);
 
 // The text in single quotes, as a POSIX shell reads it: it's becomes 'it'\''s'.
 std::string single_quoted(std::string_view text);
+
+// The words of a list such as "R,G,B".
+std::vector<std::string> words_between_commas(const std::string &list);
 
 // Guesses which of `words` was meant by `given`, which is none of them: the word with the fewest letters and digits to
 // add, leave out or exchange. Case and all other characters are ignored (--f-stop is --fstop). Empty if more than a

@@ -2,13 +2,13 @@
 
 #include "base/channel_kind.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "deep/channel_alpha.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace sparselens {
 
@@ -21,13 +21,6 @@ bool names(const std::string &item, const Channel &channel) {
            (is_in_matte(channel) && item == channel.matte);
 }
 
-std::vector<std::string> items_of(const std::string &list) {
-    std::vector<std::string> items;
-    std::istringstream in(list);
-    for (std::string item; std::getline(in, item, ',');) items.push_back(item);
-    return items;
-}
-
 std::vector<std::string> names_of(const std::vector<Channel> &channels) {
     std::vector<std::string> names;
     for (const Channel &channel : channels) names.push_back(channel.name);
@@ -36,7 +29,7 @@ std::vector<std::string> names_of(const std::vector<Channel> &channels) {
 
 std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string &list) {
     std::vector<bool> result(channels.size(), list.empty());
-    for (const std::string &item : items_of(list)) {
+    for (const std::string &item : words_between_commas(list)) {
         bool found = false;
         for (std::size_t k = 0; k < channels.size(); ++k)
             if (names(item, channels[k])) found = result[k] = true;

@@ -31,10 +31,13 @@ namespace {
 
 bool is_pipe(const std::string &path) { return path == "-" || path == display_name("-"); }
 
-// The configuration; empty if $OCIO names one that cannot be read and it is needed for a guess only.
+// The configuration; empty if $OCIO names one that cannot be read, or has no scene-linear space, and it is needed for a
+// guess only.
 std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOptions &options) {
     try {
-        return ColourConfig(options.config);
+        ColourConfig config(options.config);
+        if (options.config.empty() && options.input_space.empty()) (void)config.scene_linear();
+        return config;
     } catch (const Error &error) {
         if (!options.config.empty() || !options.input_space.empty()) throw;
         static std::once_flag said; // once for all files
@@ -134,6 +137,19 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
     return std::move(to.header);
 }
 
+bool same_chromaticities(const Imf::Header &a, const Imf::Header &b) {
+    const bool stated = Imf::hasChromaticities(a);
+    if (stated != Imf::hasChromaticities(b)) return false;
+    return !stated || Imf::chromaticities(a) == Imf::chromaticities(b);
+}
+
+void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
+                 Image &image) {
+    if (same_chromaticities(wanted, header)) return;
+    const ColourConfig config(options.config);
+    transform_colours(config.between(space_of(config, header), space_of(config, wanted)), image);
+}
+
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
     const ColourConfig config(options.config);
     return output_transform(config, options, space_of(config, metadata));
@@ -161,13 +177,21 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
     Imf::Header header = metadata;
     if (!is_shown_picture(path)) {
         to_exr_space(options, path, image, header);
+        if (compression)
+            if (const std::string channel = data_changed_by(*compression, image.channels); !channel.empty())
+                tell({NoticeKind::changed_data, path, {channel}, "compression"});
         return write_flat_exr(path, image, header, compression, tiles);
     }
     if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
     if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
-    to_output_space(options, image, header);
+    drop_unwritten_coverage(path, image);
+    const bool stays =
+        holds_linear_light(path) && (options.output_space + options.display + options.view).empty();
+    if (!stays) {
+        to_output_space(options, image, header);
+        tell({NoticeKind::displayed, path});
+    }
     write_shown_picture(path, image);
-    tell({NoticeKind::displayed, path});
     return 0;
 }
 

@@ -35,6 +35,13 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
 Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Image &image);
 
+// Makes linear colours, in the space that their header states, those of the space that another header states.
+void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
+                 Image &image);
+
+// Whether two headers state the same chromaticities, or neither states any.
+bool same_chromaticities(const Imf::Header &a, const Imf::Header &b);
+
 // Whether to_linear() leaves the colours of such a file unchanged.
 bool is_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                const Imf::Header &header);
@@ -47,9 +54,9 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header);
 
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
-// files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities. PNG, JPEG,
-// TIFF and the like are written in `output_colorspace`, or else through `display` and `view_transform` (default: those
-// of the configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an
+// files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities; so are files of
+// linear light such as .hdr. PNG, JPEG, TIFF and the like are written in `output_colorspace`, or else through `display`
+// and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an
 // OpenEXR file, and for a compression or tiles with any other. Returns what write_flat_exr returns.
 std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,

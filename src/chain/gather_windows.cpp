@@ -228,10 +228,8 @@ bool LdiCache::holds(const Key &key) const {
 
 OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose) {
     const auto &[path, recolor, channels, lens, depth, colour] = request;
-    const Key key(path, channels, depth.meaning, depth.near, depth.far, depth.picture.stereo_view,
-                  depth.picture.layer, depth.picture.depth, lens.focal_length_mm, lens.sensor_width_mm,
-                  colour.config, colour.input_space, depth.picture.depth_file, recolor,
-                  depth.picture.unpremultiplied);
+    const Key key(path, recolor, channels, depth, lens.focal_length_mm, lens.sensor_width_mm, colour.config,
+                  colour.input_space);
     read_now_ = !holds(key);
     if (read_now_) {
         last_.reset(); // because two at a time may not fit in memory

@@ -104,10 +104,8 @@ public:
 
 private:
     // Everything that the samples depend on. The focal length is part of it, because it makes ray lengths planar.
-    using Key =
-        std::tuple<std::string, std::string, DepthMeaning, std::optional<double>, std::optional<double>,
-                   std::string, std::string, std::string, std::optional<double>, std::optional<double>,
-                   std::string, std::string, std::string, std::string, bool>;
+    using Key = std::tuple<std::string, std::string, std::string, DepthOptions, std::optional<double>,
+                           std::optional<double>, std::string, std::string>;
     bool holds(const Key &key) const;
 
     Key key_;

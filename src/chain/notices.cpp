@@ -45,6 +45,11 @@ constexpr std::array table{
     Words{NoticeKind::no_colorconfig, warning,
           "{0}; EXR is taken as linear: mend $OCIO, or name a configuration by `{parameter}`"},
     Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
+    Words{NoticeKind::converted, warning,
+          "{file}: its colours are in another space than those of {0}, and are converted"},
+    Words{NoticeKind::changed_data, warning,
+          "{file}: its compression is made for colours and changes the data of channel {0}: give "
+          "`{parameter}=zip`"},
     Words{NoticeKind::picture_warning, warning, "{0}"},
     Words{NoticeKind::coverage_differs, warning,
           "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same "

@@ -1,5 +1,5 @@
-// What the chain reports beside its results: as data, and in words, one table for all interfaces. An interface turns
-// a notice into words, or finds its own. Parameters stand between backquotes, as in errors (base/error.h).
+// What the chain reports beside its results: notices, as data, and one table of their words for all interfaces.
+// Parameters stand between backquotes, as in errors (base/error.h).
 #pragma once
 
 #include "../io/open_ldi.h"
@@ -31,6 +31,8 @@ enum class NoticeKind {
     unnamed_space,  // attribute
     no_colorconfig, // the reason
     displayed,
+    converted,    // the picture whose space the colours get
+    changed_data, // the channel; `parameter` changes it
     // Views and LDIs.
     picture_warning,   // a check's finding, in its words
     coverage_differs,  // the deep file, number of pixels, of all pixels

@@ -82,12 +82,12 @@ ParameterRows<DepthOptions> depth_parameters() {
          {number("near", "D",
                  "With `depth=normalized` and hyperbolic, the depth of 0 (default: the near attribute of the "
                  "file)",
-                 above_0_or_inf),
+                 at_least_0_or_inf),
           in(&DepthOptions::near)},
          {number("far", "D",
                  "Depths beyond this are sky; with `depth=normalized` and hyperbolic, the depth of 1 "
                  "(default: 1e10)",
-                 above_0_or_inf),
+                 at_least_0_or_inf),
           in(&DepthOptions::far)},
          {text("depth-channel", "NAME",
                "Depth channel of the picture, or of `depth_file` (default: Z, depth.Z, *.Depth.Z or the "
@@ -109,7 +109,15 @@ ParameterRows<PictureChoice> choice_parameters() {
          {text("layer", "NAME",
                "Picture to read if a file holds several, such as view layers of Blender, with its depth and "
                "passes (default: the only one)"),
-          in(&PictureChoice::layer)}},
+          in(&PictureChoice::layer)},
+         {in_group("Colour", text("data", "LAYER,...",
+                                  "Layers or channels that hold data, such as positions, and not light; -v "
+                                  "lists what each is taken for (default: by their names)")),
+          in(&PictureChoice::data)},
+         {in_group("Colour",
+                   text("light", "LAYER,...",
+                        "Layers or channels that hold light, though their names are those of data")),
+          in(&PictureChoice::light)}},
         "Lens", "", PythonCall::open_ldi);
     return rows;
 }

@@ -92,6 +92,7 @@ bool are_inverse(const Grid &grid, std::span<const float> depths) {
 DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
     const bool hyperbolic = options.meaning == DepthMeaning::hyperbolic;
     if (options.meaning != DepthMeaning::normalized && !hyperbolic) {
+        if (options.far == 0) throw UsageError("`far` is not a depth above 0");
         if (options.near)
             throw UsageError("`near` works with `depth=normalized` and `depth=hyperbolic` only");
         return {0, options.far.value_or(DepthRange().far)};
@@ -103,11 +104,13 @@ DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
         throw UsageError(fmt::format("`depth={}`: which depth is {} is unknown: give {}", word,
                                      near ? "1" : (far ? "0" : "0 and which is 1"),
                                      near ? "`far`" : (far ? "`near`" : "`near` and `far`")));
-    if (!(*near > 0 && *far > 0 && *near != *far))
-        throw UsageError(
-            fmt::format("`depth={}`: `near` and `far` must be above 0 and not the same: they are "
-                        "{:g} and {:g}",
-                        word, *near, *far));
+    const auto [least, most] = std::minmax(*near, *far);
+    const bool from_0 =
+        least == 0 && !hyperbolic && std::isfinite(most); // a linear depth may begin at the camera
+    if (!((least > 0 || from_0) && most > least))
+        throw UsageError(fmt::format("`depth={}`: `near` and `far` must be above 0 and not the same (with "
+                                     "`depth=normalized`, the nearer one may be 0): they are {:g} and {:g}",
+                                     word, *near, *far));
     return {*near, *far};
 }
 

@@ -29,6 +29,8 @@ struct DepthOptions {
     // In the unit of the depth channel. Anything at `far` (1e10) or beyond is sky. Both planes are needed if depth is
     // normalized or hyperbolic (see below).
     std::optional<double> near = {}, far = {};
+
+    bool operator==(const DepthOptions &) const = default;
 };
 
 struct OpenOptions {
@@ -57,7 +59,7 @@ inline Camera opened_camera(const Imf::Header &header, const std::string &name,
     return stated ? with_film(*stated, read_camera(header), windows) : read_perspective_camera(header, name);
 }
 
-// What a file says beside its pixels, and what was done to them.
+// What is known of an opened file besides its pixels.
 struct OpenedFile {
     Imf::Header header;
     Camera camera;                             // of the header, overridden by the user's values

@@ -17,6 +17,7 @@ struct NumberRange {
 };
 inline constexpr NumberRange above_0{"a number above 0", [](double v) { return v > 0 && std::isfinite(v); }},
     above_0_or_inf{"a number above 0, or inf", [](double v) { return v > 0; }},
+    at_least_0_or_inf{"a number of at least 0, or inf", [](double v) { return v >= 0; }},
     at_least_0{"a number of at least 0", [](double v) { return v >= 0 && std::isfinite(v); }};
 
 // A control among the looks on a page.

@@ -35,7 +35,9 @@ void set_type(std::vector<Channel> &channels, std::optional<PixelType> type) {
 struct Display {
     std::string config, display, view;
 
-    void show(Image &image, const Imf::Header &header) const {
+    void show(const std::string &path, Image &image, const Imf::Header &header) const {
+        drop_unwritten_coverage(path, image);
+        if (holds_linear_light(path) && (display + view).empty()) return;
         const ColourConfig colours(config);
         const auto stated = stated_space(colours, header);
         const std::string from = stated && stated->space ? *stated->space : colours.scene_linear();
@@ -69,7 +71,7 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
             clamped = write_flat_exr(path, picture.image, picture.header, compression, tiles);
             return;
         }
-        display.show(picture.image, picture.header);
+        display.show(path, picture.image, picture.header);
         write_shown_picture(path, picture.image);
     });
     if (clamped > 0) warn(words_of({NoticeKind::clamped, path, {clamped}}));
@@ -98,7 +100,7 @@ py::object png_of(const PictureObject &picture) {
     if (!all_found(find_rgb(picture.image.channels))) return py::none();
     return py::bytes(job<std::string>(py::none(), [&](Progress &) {
         Image image = picture.image;
-        Display().show(image, picture.header);
+        Display().show("picture.png", image, picture.header);
         return shown_picture("Picture", "png", image);
     }));
 }

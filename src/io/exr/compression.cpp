@@ -1,6 +1,8 @@
 #include "io/exr/compression.h"
 
+#include "base/channel_kind.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <ImfPartType.h>
 #include <OpenEXRConfig.h>
@@ -46,6 +48,16 @@ std::string names_of(const Chosen &chosen, const std::string &separator = ", ") 
     return fmt::format("{}", fmt::join(names, separator));
 }
 
+// DWA changes the channels that are named as colours are (OpenEXR, ImfDwaCompressor.h, its rules for channels), PXR24
+// all floats of 32 bits.
+bool changes(const NamedCompression &method, const Channel &channel) {
+    static constexpr std::array colours{"r", "red", "g", "grn", "green", "b", "blu", "blue", "y", "ry", "by"};
+    if (method.exact || channel.type == PixelType::uint32) return false;
+    const std::string last = lower_case(channel.name.substr(channel.name.rfind('.') + 1));
+    return method.value == Imf::PXR24_COMPRESSION ? channel.type == PixelType::float32
+                                                  : is_among(colours, last);
+}
+
 bool is_deep(const Imf::Header &header) { return header.hasType() && Imf::isDeepData(header.type()); }
 
 } // namespace
@@ -54,6 +66,28 @@ std::span<const NamedCompression> compressions() { return methods; }
 
 std::string compression_names(bool deep, const std::string &separator) {
     return names_of([deep](const NamedCompression &method) { return method.deep || !deep; }, separator);
+}
+
+std::string why_ids_are_lost(Imf::Compression compression, const Channel &channel) {
+    const NamedCompression *method = method_of(compression);
+    if (!holds_ids(channel) || channel.type == PixelType::uint32) return {};
+    if (method && changes(*method, channel))
+        return fmt::format("the ids in channel {} were changed by the compression {} and mean nothing now: "
+                           "write them with one of {}",
+                           channel.name, method->name, names_of(&NamedCompression::exact));
+    if (channel.kind == ChannelKind::matte_id && channel.type == PixelType::half)
+        return fmt::format(
+            "the ids in channel {} are halves, which no manifest names and several objects may "
+            "share: render Cryptomattes with 32 bits",
+            channel.name);
+    return {};
+}
+
+std::string data_changed_by(Imf::Compression compression, std::span<const Channel> channels) {
+    const NamedCompression *method = method_of(compression);
+    for (const Channel &channel : channels)
+        if (method && channel.kind == ChannelKind::data && changes(*method, channel)) return channel.name;
+    return {};
 }
 
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,

@@ -25,6 +25,12 @@ std::span<const NamedCompression> compressions();
 // The names that flat or deep files may have, separated by `separator`.
 std::string compression_names(bool deep, const std::string &separator);
 
+// Says that a compression changed the ids of a channel, or that they are halves, which cannot hold them; else empty.
+std::string why_ids_are_lost(Imf::Compression compression, const Channel &channel);
+
+// The first channel of data that a compression changes as if it were a colour; empty if there is none.
+std::string data_changed_by(Imf::Compression compression, std::span<const Channel> channels);
+
 // The compression of a new file: the requested one; otherwise none into a pipe; otherwise that of `metadata` if it is
 // the header of a file of the same kind (flat or deep); otherwise ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte
 // need an exact method; if that of `metadata` is not exact, they get ZIP. Throws UsageError if a file with these

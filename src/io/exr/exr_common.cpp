@@ -140,8 +140,40 @@ Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header head
     return header;
 }
 
+namespace {
+
+constexpr const char *data_attribute = "sparselens:data", *light_attribute = "sparselens:light";
+
+std::vector<std::string> stated_names(const Imf::Header &header, const char *attribute) {
+    const auto *names = header.findTypedAttribute<Imf::StringVectorAttribute>(attribute);
+    return names ? names->value() : Imf::StringVector();
+}
+
+// Throws Error if a name is that of no channel and no layer.
+void state_names(Imf::Header &header, const char *attribute, const char *parameter, const std::string &list,
+                 std::span<const Channel> channels, const std::string &path) {
+    Imf::StringVector names = stated_names(header, attribute);
+    for (const std::string &name : words_between_commas(list)) {
+        if (std::ranges::none_of(channels, [&](const Channel &channel) { return is_named(channel, name); }))
+            throw Error(
+                fmt::format("{}: has no layer or channel {} (`{}`)", display_name(path), name, parameter));
+        names.push_back(name);
+    }
+    if (!names.empty()) set_attribute(header, attribute, Imf::StringVectorAttribute(names));
+}
+
+} // namespace
+
+Imf::Header with_stated_kinds(Imf::Header header, const PictureChoice &choice,
+                              std::span<const Channel> channels, const std::string &path) {
+    state_names(header, data_attribute, "data", choice.data, channels, path);
+    state_names(header, light_attribute, "light", choice.light, channels, path);
+    return header;
+}
+
 void find_kinds_by(const Imf::Header &header, std::span<Channel> channels) {
-    find_kinds(channels, matte_names(header));
+    find_kinds(channels, matte_names(header),
+               {stated_names(header, data_attribute), stated_names(header, light_attribute)});
 }
 
 void find_kinds_by(const Imf::Header &header, std::vector<FileChannel> &channels) {

@@ -69,7 +69,12 @@ std::vector<std::string> matte_names(const Imf::Header &header);
 // The header with the attributes cryptomatte/... of all parts, because mattes may lie in their own parts.
 Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header header);
 
-// Sets the kinds of channels (base/channel_kind.h) by their names and by the mattes that the header names.
+// The header, in which attributes state the kinds that the choice gives to channels. Later steps read them there.
+// Throws Error if the choice names something that is not among the channels.
+Imf::Header with_stated_kinds(Imf::Header header, const PictureChoice &choice,
+                              std::span<const Channel> channels, const std::string &path);
+
+// Sets the kinds of channels (base/channel_kind.h) by their names, and by the mattes and kinds that the header states.
 void find_kinds_by(const Imf::Header &header, std::span<Channel> channels);
 void find_kinds_by(const Imf::Header &header, std::vector<FileChannel> &channels);
 

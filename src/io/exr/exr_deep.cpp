@@ -230,7 +230,9 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;
         if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
         picture.find_beauty(numbers);
-        Imf::Header header = with_mattes_of(file, header_of_view(file.header(numbers.front()), view));
+        Imf::Header header =
+            with_stated_kinds(with_mattes_of(file, header_of_view(file.header(numbers.front()), view)),
+                              choice, full_channels(file, numbers, view, path), path);
         const auto by_rows = [&](Ldi rows) {
             add_mean_coverage(rows);
             find_kinds_by(header, rows.channels);
@@ -245,11 +247,15 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
             header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's compression is not the picture's
         Ldi ldi = picture.whole();
         find_kinds_by(header, ldi.channels);
+        std::vector<std::string> warnings = picture.warnings();
+        if (ldi.alpha() == npos && std::ranges::any_of(ldi.channels, is_light))
+            warnings.emplace_back(
+                "has no coverage (A, or AR, AG and AB), so that every sample hides what is behind it");
         set_kept_names(header, picture.kept_names());
         std::vector<std::string> notes = picture.notes();
         if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)
             notes.push_back(fmt::format("{} flat parts are not used beside the deep ones", flat));
-        return LdiFile{std::move(ldi), header, true, std::move(notes), picture.warnings(), picture.packed()};
+        return LdiFile{std::move(ldi), header, true, std::move(notes), std::move(warnings), picture.packed()};
     });
 }
 

@@ -197,14 +197,26 @@ std::vector<std::span<float>> planes_of(Image &image) {
     return planes;
 }
 
+// For the first channel of which that is true.
+std::string why_ids_are_lost(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
+    for (const PartChannels &part : picture.parts)
+        for (const FileChannel &found : part.channels)
+            if (std::string why = why_ids_are_lost(file.header(part.part).compression(), found.channel);
+                !why.empty())
+                return why;
+    return {};
+}
+
 } // namespace
 
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const PictureChoice &choice) {
     PictureParts picture = parts_of_picture(file, path, choice);
-    const Imf::Header header = header_of(file, picture, path);
     std::vector<Channel> channels = picture.channels();
+    const Imf::Header header = with_stated_kinds(header_of(file, picture, path), choice, channels, path);
     find_kinds_by(header, channels);
+    if (std::string why = why_ids_are_lost(file, picture); !why.empty())
+        picture.warnings.push_back(std::move(why));
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
     check_memory(path, memory_of(header, channels.size()), size);

@@ -73,7 +73,11 @@ struct PictureChoice {
     // A flat file with the same display window, whose depth replaces that of the picture; `depth` then names one of its
     // channels.
     std::string depth_file = {};
+    std::string data = {},
+                light = {}; // layers or channels of that kind, separated by commas (base/channel_kind.h)
     bool unpremultiplied = false; // colours are not yet multiplied by their coverage; the reader does it
+
+    bool operator==(const PictureChoice &) const = default;
 
     // The depth channel of the picture in memory.
     std::string depth_in_memory() const { return depth_file.empty() ? depth : "Z"; }
