@@ -4,6 +4,7 @@
 #include "support/scratch_folder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
