@@ -1,13 +1,13 @@
 # Each tool has a manual page, which tools/man-page.sh makes by help2man, and a completion for bash.
 #
-# sparselens_tool(NAME LIBRARY [COMPONENT]): the tool NAME, from NAME.cpp, of what it shares with others; the component it is
-# installed with, if it is.
+# sparselens_tool(NAME LIBRARY COMPONENT): the tool NAME, from NAME.cpp, of what it shares with others, and the component it
+# is installed with.
 find_program(HELP2MAN help2man)
 if(NOT HELP2MAN)
     message(STATUS "help2man is not installed, so the tools have no manual pages")
 endif()
 
-function(sparselens_tool name library)
+function(sparselens_tool name library component)
     set(pages ${CMAKE_BINARY_DIR}/share/man/man1)
     set(make_page ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tools/man-page.sh)
     add_executable(${name} ${name}.cpp)
@@ -17,10 +17,6 @@ function(sparselens_tool name library)
         add_custom_command(TARGET ${name} POST_BUILD COMMAND ${make_page} $<TARGET_FILE:${name}> > ${pages}/${name}.1 VERBATIM)
         set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS ${make_page})
     endif()
-    if(ARGC EQUAL 2)
-        return()
-    endif()
-    set(component ${ARGV2})
     install(TARGETS ${name} COMPONENT ${component})
     install(FILES ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tools/completion.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${name} COMPONENT ${component})
     if(HELP2MAN)

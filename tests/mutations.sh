@@ -41,7 +41,7 @@ cmake --preset release --log-level=WARNING -DSPARSELENS_BENCHMARKS=OFF -DSPARSEL
 # build CAUGHT_BY: builds what those tests need; tests other than the unit tests may need anything.
 build() {
     local targets=()
-    is_ctest "$1" || targets=(sparselens-tests sparselens-lab-tests dof-stress)
+    is_ctest "$1" || targets=(sparselens-tests sparselens-lab-tests)
     ninja -C build -j "$(nproc)" "${targets[@]}" >build.log 2>&1
 }
 ctests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')
@@ -58,18 +58,12 @@ failed_units() {
         [ $code -eq 0 ] || echo "${failed:-$tests ends with $code}"
     done
 }
-# failing_tests CAUGHT_BY: the tests that fail. By default the unit tests except those of the ray tracer; if none fails,
-# dof-stress.
+# failing_tests CAUGHT_BY: the tests that fail. By default the unit tests except those of the ray tracer.
 failing_tests() {
-    local failing
     if is_ctest "$1"; then
         ctest --test-dir build -R "^${1//./\\.}\$" >ctest.log 2>&1 || echo "$1"
-    elif [ -n "$1" ]; then
-        failed_units "$1"
     else
-        failing=$(failed_units '-Trac*:Render*:Scenes*:Shading*')
-        [ -n "$failing" ] || failing=$(timeout 1000 build/bin/dof-stress 2>/dev/null | sed -nE 's/^([^ ]*) .*FAIL$/dof-stress:\1/p')
-        [ -z "$failing" ] || echo "$failing"
+        failed_units "${1:--Trac*:Render*:Scenes*:Shading*}"
     fi
 }
 while read -r by; do

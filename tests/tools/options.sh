@@ -66,9 +66,6 @@ for tool in "${!task[@]}"; do
 done
 fails_saying 1 'dof-gather: .* asks for .* than --max-memory allows' "$bin/dof-report" --quick fence --size 24x16 -o report --max-memory 1KB
 show dof-report --max-memory
-exits 0 "$bin/dof-stress" --case z_nan --threads 3 -v
-grep -qx "dof-stress: threads: 3" stderr || fail "dof-stress --threads 3 -v: $(cat stderr)"
-show dof-stress --threads -v
 
 # --far: depths there or beyond are sky.
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-compare; do
@@ -117,7 +114,7 @@ has_page() {
 
 for path in "$bin"/ldi-* "$bin"/dof-*; do
     tool=${path##*/}
-    complete -p "$tool" >/dev/null 2>&1 || [ "$tool" = dof-stress ] || fail "$tool has no completion"
+    complete -p "$tool" >/dev/null 2>&1 || fail "$tool has no completion"
     exits 0 "$path" --version
     grep -q "^$tool " stdout || fail "$tool --version: $(cat stdout)"
     exits 0 "$path" -h

@@ -158,7 +158,6 @@ struct FrameCommand {
         job = prepare(app);
         add_frame_options(app, frames);
         add_process_options(app, process);
-        add_memory_option(app, process);
         explain_all_pictures(app);
     }
 };

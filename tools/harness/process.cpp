@@ -116,9 +116,6 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
-}
-
-void add_memory_option(CLI::App &app, ProcessOptions &options) {
     app.add_option("--max-memory", options.max_memory,
                    "Memory limit for reading a file and for frames in work, e.g. 4GB (default: 64 MB plus "
                    "1100 times the size of the file; a quarter of the machine's)")

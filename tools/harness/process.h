@@ -16,9 +16,8 @@ struct ProcessOptions {
     std::optional<std::uint64_t> max_memory;
 };
 
-// Adds --version, -v and --threads.
+// Adds --version, -v, --threads and --max-memory.
 void add_process_options(CLI::App &app, ProcessOptions &options);
-void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 
 // Parses the words. Returns nothing if there is work to do; else the exit code, after answering --help and the like or
 // reporting a usage error. `prefix` begins the message: "dof-gather: ", "dof-gather: frame 12: ".

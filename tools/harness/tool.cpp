@@ -53,14 +53,13 @@ void warn_once(const ToolContext &tool, const std::string &kind, const std::stri
     });
 }
 
-int run_tool(CLI::App &app, int argc, char **argv, const Work &work, Reads reads) {
-    return run_tool(app, {argv + 1, argv + argc}, work, reads);
+int run_tool(CLI::App &app, int argc, char **argv, const Work &work) {
+    return run_tool(app, {argv + 1, argv + argc}, work);
 }
 
-int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work, Reads reads) {
+int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work) {
     ProcessOptions options;
     add_process_options(app, options);
-    if (reads == Reads::files) add_memory_option(app, options);
     const std::string prefix = error_prefix(ProgressFormat::terminal, app.get_name());
     if (const auto code = parse_words(app, words, prefix)) return *code;
     ToolContext tool;

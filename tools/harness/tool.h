@@ -70,14 +70,10 @@ struct Job {
     bool joins_moments = false;
 };
 
-// What the tool reads. Only tools that read files have --max-memory.
-enum class Reads { files, nothing };
-
-// Adds --version, -v and --threads to `app`, parses the command line, does `work` and returns the exit code: 0 done,
+// Adds --version, -v, --threads and --max-memory to `app`, parses the command line, does `work` and returns the exit code: 0 done,
 // 1 failed (Error, memory, any exception), 2 usage error (the errors of CLI11, UsageError).
-int run_tool(CLI::App &app, int argc, char **argv, const Work &work, Reads reads = Reads::files);
-int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work,
-             Reads reads = Reads::files); // without the program
+int run_tool(CLI::App &app, int argc, char **argv, const Work &work);
+int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work); // without the program
 
 // Runs the tool for each frame of a range (frames.h), with --frames, --skip-bad-frames, --skip-existing, --progress and
 // --stats. `prepare` adds the options of the tool to an app and returns the job that they describe; it is called again
