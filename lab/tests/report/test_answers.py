@@ -36,6 +36,6 @@ def test_between_the_budgets_of_the_others_their_curve_is_taken():
 
 
 def test_programs_of_one_view_are_compared_with_one_view():
-    rows = [of("one view", "lens normal", 16, 32), of("one view", "gather", 16, 40), of("one view", "Theirs (as it is)", 16, 25),
-            of("one view", "Theirs (at best)", 16, 33.25)]
+    rows = [of("one view", "lens normal", 16, 32), of("one view", "gather", 16, 40),
+            of("one view", "Theirs (as it is)", 16, 25), of("one view", "Theirs (at best)", 16, 33.25)]
     assert about(rows, "programs") == ("fence: Theirs (at best) has 33.2 dB, this one 32.0", "nowhere")

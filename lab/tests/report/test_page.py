@@ -17,12 +17,12 @@ def test_the_page_holds_all_of_itself():
     rows = traced() + [sparse(2, 5, 39, '<sparse> & "co"')]
     rows[-1].errors[0]["nonfinite_image"] = 12345
     html = page_as_html(["a < machine"], [scene(
-        rows, sentences=["1 < 2"], plots=[b"<svg/>"], more_plots=[b"<svg2/>"], pictures=[("reference", b"foo"), ("best", b"bar")],
-        worst=[("a > block", b"foob")])])
+        rows, sentences=["1 < 2"], plots=[b"<svg/>"], more_plots=[b"<svg2/>"], worst=[("a > block", b"foob")],
+        pictures=[("reference", b"foo"), ("best", b"bar")])])
     assert html.startswith("<!DOCTYPE html>")
     for held in ["a &lt; machine", "1 &lt; 2", "&lt;sparse&gt; &amp; &quot;co&quot;", 'data:image/png;base64,Zm9v"',
                  'data:image/svg+xml;base64,PHN2Zy8+"', 'data:image/svg+xml;base64,PHN2ZzIvPg=="', "a &gt; block",
-                 'data:image/png;base64,Zm9vYg=="', ">12345</td>", "startViewer"]:  # the page reports values that are not finite
+                 'data:image/png;base64,Zm9vYg=="', ">12345</td>", "startViewer"]:  # 12345: how many are not finite
         assert held in html, held
     assert html.count("<tr") == 1 + len(rows)
     for from_elsewhere in ["http:", "https:", 'src="/', "<link", "@import", "url("]:
@@ -42,7 +42,8 @@ def test_a_plot_has_a_line_a_method_and_no_point_at_infinity():
         assert list(lines) == ["traced", 'say "sparse" for $1$, lens', "exact, lens"]
         assert lines['say "sparse" for $1$, lens'] == [[cost, pytest.approx(0.01)]]  # 40 dB
         assert lines["exact, lens"] == [] and len(lines["traced"]) == 3
-        assert axes.get_ylim() == pytest.approx((0.00562341, 0.0562341), rel=1e-5) and decibels.get_ylim() == (45, 25)  # the same
+        assert axes.get_ylim() == pytest.approx((0.00562341, 0.0562341), rel=1e-5)
+        assert decibels.get_ylim() == (45, 25)  # the same
 
 
 def test_plots_are_files_of_their_names(tmp_path):
@@ -57,13 +58,15 @@ def test_plots_show_six_ways_that_are_in_use():
     names = ["one view, scatter", "centre + 4, selective K=8", "4 strata, layered blend", "one view, lens normal",
              "accumulated lens views", "distributed ray tracing", "denoised ray tracing", "centre + 4, lens normal",
              "centre + 8, lens normal", "centre + 4 denoised, lens normal"]
-    kept = rows_in_use([row("", renderer, 1, 5, 30, processor) for renderer, _, processor in (n.partition(", ") for n in names)])
+    parts = [name.partition(", ") for name in names]
+    kept = rows_in_use([row("", renderer, 1, 5, 30, processor) for renderer, _, processor in parts])
     assert len(kept) == 6 and kept[0].method == "one view, lens normal"  # in the order of the rows
     assert not any(one.processor == "scatter" for one in kept)
 
 
 def test_pngs_have_the_pixels(tmp_path):
-    pixels = numpy.linspace(-0.2, 1.2, 3 * 4 * 5, dtype=numpy.float32).reshape(3, 4, 5).transpose(1, 2, 0)  # not contiguous
+    planes = numpy.linspace(-0.2, 1.2, 3 * 4 * 5, dtype=numpy.float32).reshape(3, 4, 5)
+    pixels = planes.transpose(1, 2, 0)  # not contiguous
     pixels[0, 0] = math.nan
     write_png(str(tmp_path / "a" / "b.png"), pixels)
     read = OpenImageIO.ImageBuf(str(tmp_path / "a" / "b.png")).get_pixels("uint8")

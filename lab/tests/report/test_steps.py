@@ -45,8 +45,8 @@ def noting(text, file, **more):
 
 def tracing(seconds):
     """A shell script that writes a tracer's camera.json: the centre view took `seconds`."""
-    return ('echo "{\\"focal_mm\\": 1, \\"sensor_width_mm\\": 1, \\"focus_distance\\": null, \\"lens_radius\\": 0, \\"views\\": [], '
-            f'\\"view_spp\\": 1, \\"seconds\\": {{\\"center.exr\\": {seconds}}}}}" >views/camera.json')
+    return ('echo "{\\"focal_mm\\": 1, \\"sensor_width_mm\\": 1, \\"focus_distance\\": null, \\"lens_radius\\": 0, '
+            f'\\"views\\": [], \\"view_spp\\": 1, \\"seconds\\": {{\\"center.exr\\": {seconds}}}}}" >views/camera.json')
 
 
 def tracing_step():
@@ -107,7 +107,8 @@ def test_it_goes_on_where_it_stopped(tools):
 
 def test_times_are_medians_of_several_runs(tools):
     # Each run reports thousands of seconds of unneeded rendering, 3000 on average, which are subtracted.
-    tools.tool("trace", "echo ran >>log; " + tracing("$(case $(wc -l <log) in 1) echo 1000;; 2) echo 6000;; *) echo 2000;; esac)"))
+    seconds = "$(case $(wc -l <log) in 1) echo 1000;; 2) echo 6000;; *) echo 2000;; esac)"
+    tools.tool("trace", "echo ran >>log; " + tracing(seconds))
     begun = time.monotonic()
     step, = tools.run(tracing_step(), runs=3)
     assert tools.noted() == 3 and step.runs == 3
@@ -152,7 +153,8 @@ def test_file_names_need_no_quoting(tmp_path):
 
 
 @pytest.mark.parametrize("command, says", [
-    (["/no/such/program"], "/no/such/program: cannot be started"), (["false"], "exit code 1"), (["sh", "-c", "kill -9 $$"], "signal 9")])
+    (["/no/such/program"], "/no/such/program: cannot be started"), (["false"], "exit code 1"),
+    (["sh", "-c", "kill -9 $$"], "signal 9")])
 def test_failures_of_programs_are_errors(tmp_path, command, says):
     with pytest.raises(Failure, match=says):
         run_process(command, tmp_path)

@@ -1,5 +1,5 @@
-"""The rows of a scene, and the commands that make their pictures, without running any: dof-trace is a shell script that knows
-one scene, focused at 5."""
+"""The rows of a scene, and the commands that make their pictures, without running any: dof-trace is a shell script that
+knows one scene, focused at 5."""
 import json
 
 import pytest
@@ -54,10 +54,10 @@ def test_the_whole_taxonomy_is_there(planned):
     every, quick = planned("fence"), planned("fence", quick=True)
     kinds = ["selective K=2", "selective K=4", "selective K=8", "lens draft", "lens normal", "lens final"]
     assert every.methods() == {
-        "one view, scatter", "one view, gather", "one view, lens normal", "4 strata, layered blend", "4 strata, lens normal",
-        "4 peeled layers, layered blend", "4 peeled layers, lens normal", "accumulated lens views", "distributed ray tracing",
-        "centre + 4 at 2x, lens normal", "centre + 4 at 2x, lens final",
-        *(f"centre + {n}, {kind}" for n in (4, 8) for kind in kinds)}
+        "one view, scatter", "one view, gather", "one view, lens normal", "4 strata, layered blend",
+        "4 strata, lens normal", "4 peeled layers, layered blend", "4 peeled layers, lens normal",
+        "accumulated lens views", "distributed ray tracing", "centre + 4 at 2x, lens normal",
+        "centre + 4 at 2x, lens final", *(f"centre + {n}, {kind}" for n in (4, 8) for kind in kinds)}
     # Four sample counts, five of rays and lens views; three of fine views.
     assert len(every.rows) == 4 * 7 + 5 + 5 + 4 * 12 + 3 * 2
     assert quick.methods() < every.methods() and len(quick.methods()) == 14
@@ -90,7 +90,8 @@ def test_a_row_takes_the_time_of_its_whole_chain(planned):
     assert of("centre + 4 at 2x, lens final", "16 samples") == [
         "dof-trace fence --size 640x360 --spp 16 --views 4 --supersample 2 -o fence/fine-5x16",
         f"ldi-warp fence/fine-5x16/center.exr {views.replace('views-', 'fine-')} -o fence/fine-5x16/warped.exr",
-        "dof-gather fence/fine-5x16/warped.exr --method lens --quality final --supersample 2 -o fence/fine-5x16/lens-final.exr"]
+        "dof-gather fence/fine-5x16/warped.exr --method lens --quality final --supersample 2 -o "
+        "fence/fine-5x16/lens-final.exr"]
     assert every.row("centre + 4 at 2x, lens final", "16 samples").rays == 80
     assert of("4 peeled layers, layered blend", "4 samples") == [
         "dof-trace fence --size 640x360 --spp 4 --views 0 --deep peel:4 -o fence/peel-4x4",
@@ -142,8 +143,9 @@ def test_planned_views_are_there_where_there_is_a_planner(planned):
 # --- Ready-made views: 8 with 64 samples per pixel, and in a folder inside 2 with 4 samples ---
 
 def camera(points, samples, seconds, **more):
-    return json.dumps({"width": 64, "height": 36, "focal_mm": 50.0, "sensor_width_mm": 36, "fstop": 0.5, "focus_distance": 6,
-                       "lens_radius": 0.5, "views": points, "view_spp": samples, "ref_spp": 1024, "seconds": seconds} | more)
+    return json.dumps({"width": 64, "height": 36, "focal_mm": 50.0, "sensor_width_mm": 36, "fstop": 0.5,
+                       "focus_distance": 6, "lens_radius": 0.5, "views": points, "view_spp": samples, "ref_spp": 1024,
+                       "seconds": seconds} | more)
 
 
 @pytest.fixture
@@ -154,7 +156,8 @@ def yard(tmp_path):
     (folder / "drt_16.exr").touch()
     seconds = {"center.exr": 20, "drt_16.exr": 2.5, "drt_4.exr": 0.5} | {f"view_{k}.exr": k for k in range(8)}
     (folder / "camera.json").write_text(camera([[k, 1] for k in range(8)], 64, seconds))
-    (folder / "few/camera.json").write_text(camera([[1, 0], [-1, 0]], 4, {"center.exr": 1, "view_0.exr": 2, "view_1.exr": 3}))
+    few = {"center.exr": 1, "view_0.exr": 2, "view_1.exr": 3}
+    (folder / "few/camera.json").write_text(camera([[1, 0], [-1, 0]], 4, few))
     return folder
 
 

@@ -81,6 +81,9 @@ grep -q 'rays a pixel' printed || fail "no crossing is printed: $(cat printed)"
 compared() { "$bin/dof-compare" "$1" "$2" --json --flip hdr | sed -n "s/^  \"${3:-psnr_tonemapped}\": \(.*\),/\1/p"; }
 is "$(value fence 'centre + 4, lens normal' '4 samples' psnr_tonemapped)" \
     "$(compared out/fence/views-5x4/lens-normal.exr out/fence/reference/reference.exr)" 'PSNR of fence'
+for figure in $("$bin/dof-compare" drt/reference.exr 'my views/reference.exr' --json --flip hdr | sed -n 's/^  "\(.*\)": [^{]*$/\1/p'); do
+    head -n 1 out/report.csv | tr , '\n' | grep -qx "$figure" || fail "report.csv has no $figure"
+done
 for figure in psnr_worst flip; do
     is "$(value fence 'centre + 4, lens normal' '4 samples' $figure)" \
         "$(compared out/fence/views-5x4/lens-normal.exr out/fence/reference/reference.exr $figure)" "$figure of fence" 1e-6
