@@ -39,7 +39,7 @@ if(SPARSELENS_LAB)
     list(APPEND CPACK_COMPONENTS_ALL lab)
     set(CPACK_DEBIAN_LAB_PACKAGE_NAME sparselens-lab)
     set(CPACK_DEBIAN_LAB_PACKAGE_SHLIBDEPS ON)
-    set(CPACK_DEBIAN_LAB_PACKAGE_DEPENDS sparselens)
+    set(CPACK_DEBIAN_LAB_PACKAGE_DEPENDS "python3, python3-matplotlib, python3-numpy, python3-openimageio, sparselens")
     set(CPACK_COMPONENT_LAB_DESCRIPTION "The laboratory: test scenes and their ray tracer, and the report of error
 against run time.")
 endif()

@@ -28,6 +28,14 @@ bool read_count(std::string_view text, int limit, int &value) {
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= limit;
 }
 
+// Reads "WIDTHxHEIGHT"; false if the text has another form.
+bool read_size(const std::string &text, TraceOptions &options) {
+    const std::size_t x = text.find('x');
+    return x != std::string::npos &&
+           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
+           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
+}
+
 bool read_deep(const std::string &text, TraceOptions &options) {
     if (text == "visible" || text == "views") {
         options.deep.push_back({text == "views" ? DeepKind::views : DeepKind::visible, 0});
@@ -184,13 +192,6 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
 }
 
 } // namespace
-
-bool read_size(const std::string &text, TraceOptions &options) {
-    const std::size_t x = text.find('x');
-    return x != std::string::npos &&
-           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
-           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
-}
 
 void add_trace_options(CLI::App &app, TraceOptions &options) {
     add_picture_options(app, options);

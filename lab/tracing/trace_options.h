@@ -41,9 +41,6 @@ struct TraceOptions {
     GivenLooks looks;
 };
 
-// Reads "WIDTHxHEIGHT" into options.width and height; false if the text has another form.
-bool read_size(const std::string &text, TraceOptions &options);
-
 void add_trace_options(CLI::App &app, TraceOptions &options);
 
 // The windows, the lens, the light, the camera's motion and the exposure of the picture, and of the views; `camera` is

@@ -111,23 +111,16 @@ struct Block {
 constexpr std::size_t block_size = 8;
 using Blocks = std::vector<std::vector<Block>>; // [pixel set][block]
 
-// The worst 1 % of the blocks; NaN if there are none.
-struct Worst {
-    double mean_square;
-    std::size_t block; // the worst of them
-};
-
-Worst worst_of(const std::vector<Block> &blocks) {
-    std::vector<std::pair<double, std::size_t>> means;
+// The mean square of the worst 1 % of the blocks; NaN if there are none.
+double worst_of(const std::vector<Block> &blocks) {
+    std::vector<double> means;
     for (const Block &block : blocks)
-        if (block.pixels > 0)
-            means.emplace_back(block.squared / double(colours * block.pixels),
-                               std::size_t(&block - blocks.data()));
+        if (block.pixels > 0) means.push_back(block.squared / double(colours * block.pixels));
     const std::size_t worst = pieces_of(means.size(), std::size_t(100));
     std::partial_sort(means.begin(), means.begin() + std::ptrdiff_t(worst), means.end(), std::greater());
     double sum = 0;
-    for (std::size_t i = 0; i < worst; ++i) sum += means[i].first;
-    return {sum / double(worst), means.empty() ? 0 : means.front().second};
+    for (std::size_t i = 0; i < worst; ++i) sum += means[i];
+    return sum / double(worst);
 }
 
 // The 99th percentile (nearest rank) of |a - b| over the channel values of a pixel set.
@@ -149,12 +142,12 @@ double percentile_99(const Image &image, const Image &reference, const PixelSets
 
 double decibels(double mean_square) { return -10 * std::log10(mean_square); }
 
-ErrorFigures figures_of(const Sums &sums, const Worst &worst, std::size_t columns, double p99) {
+ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
     const double values = double(colours * sums.pixels);
     const bool any = sums.pixels > 0;
     return {.psnr = decibels(sums.squared / values),
             .psnr_tonemapped = decibels(sums.squared_tonemapped / values),
-            .psnr_worst = decibels(worst.mean_square),
+            .psnr_worst = decibels(worst),
             .relmse = sums.relative / values,
             .smape = sums.symmetric / values,
             .ssim = sums.ssim / double(sums.windows),
@@ -163,9 +156,7 @@ ErrorFigures figures_of(const Sums &sums, const Worst &worst, std::size_t column
             .max_alpha = any ? sums.max_alpha : not_a_number,
             .pixels = sums.pixels,
             .nonfinite_image = sums.nonfinite_image,
-            .nonfinite_reference = sums.nonfinite_reference,
-            .worst_block =
-                int(block_size) * Imath::V2i(int(worst.block % columns), int(worst.block / columns))};
+            .nonfinite_reference = sums.nonfinite_reference};
 }
 
 struct LumaPlanes {
@@ -250,8 +241,7 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;
         for (const RowSums &row : rows) sums.add(row[set]);
-        figures[set] = figures_of(sums, worst_of(blocks[set]), pieces_of(std::size_t(width), block_size),
-                                  percentile_99(image, reference, sets, set));
+        figures[set] = figures_of(sums, worst_of(blocks[set]), percentile_99(image, reference, sets, set));
     });
     return figures;
 }

@@ -34,7 +34,6 @@ struct ErrorFigures {
     double psnr, psnr_tonemapped, psnr_worst, relmse, smape, ssim, p99, max, max_alpha;
     std::size_t pixels = 0; // compared pixels
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
-    Imath::V2i worst_block{0, 0}; // the upper left pixel, from the corner of the data window
     std::optional<double> flip = {};
     std::optional<ErrorWithoutNoise> without_noise = {}; // if there are two references
 };

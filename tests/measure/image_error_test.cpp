@@ -184,7 +184,6 @@ TEST(ImageError, WorstBlocksAreTheMeanOfOneInAHundred) {
     Image a = black;
     a.at(1, 20, 30) = 1;
     EXPECT_NEAR(whole(a, black).psnr_worst, -10 * std::log10(third / 64 / 3), 1e-6);
-    EXPECT_EQ(whole(a, black).worst_block, Imath::V2i(16, 24));
     a.at(0, 23, 31) = 1;                              // the same block
     a.at(2, 24, 31) = 1;                              // the next
     a.at(2, 167, 79) = a.at(0, 160, 72) = 1;          // the last
@@ -200,8 +199,6 @@ TEST(ImageError, WorstBlocksAreTheMeanOfOneInAHundred) {
     for (int y = 0; y < 80; ++y) bits[std::size_t(y) * 81 + 3] = 1;
     const auto figures = image_error(narrow, reference, bits, 2);
     EXPECT_NEAR(figures[1].psnr_worst, -10 * std::log10(third / 8), 1e-6); // of ten blocks
-    EXPECT_EQ(figures[0].worst_block, Imath::V2i(80, 0));
-    EXPECT_EQ(figures[1].worst_block, Imath::V2i(0, 40));
     EXPECT_TRUE(std::isnan(figures[2].psnr_worst));
 }
 

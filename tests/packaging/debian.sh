@@ -49,7 +49,7 @@ done
 # Runs the tools: inside the root, with the libraries that they are linked with; else from there, with the host's.
 mkdir "$root/work"
 if [ "$(id -u)" -eq 0 ] && chroot / true 2>/dev/null; then
-    ldd "$root"/usr/bin/* | grep -oE '/[^ :]+' | sort -u | while read -r library; do
+    { ldd "$root"/usr/bin/* || true; } | grep -oE '/[^ :]+' | sort -u | while read -r library; do
         [[ $library != "$root"* ]] || continue
         mkdir -p "$root${library%/*}" && cp -L "$library" "$root$library"
     done

@@ -33,7 +33,7 @@ figures() {
     # In older commits the laboratory is in src and tools.
     local files other='js|css|html|py|pyi|sh'
     files=$(find src tools -regextype posix-extended -regex '.*\.(cpp|h|comp|glsl|in)' |
-        grep -vE '^(src|tools)/lab/|^tools/dof-(trace|report|stress|accumulate)\.cpp$' | sort)
+        grep -vE '^(src|tools)/lab/|^tools/dof-(trace|report|accumulate)\.cpp$' | sort)
     xargs cat <<<"$files" | awk 'END { print "lines     " NR }'
     echo "files     $(wc -l <<<"$files")"
     xargs grep -H '^#include "' <<<"$files" | awk -F'[:"]' -v all="$files" '
