@@ -58,6 +58,7 @@ def PICTURE(
     stereo_view: Optional[str] = None,  # the view of a stereo file, such as "right".
     layer: Optional[str] = None,  # which picture to take from a file that holds several, such as a view layer of Blender.
     unpremultiplied: bool = False,  # the colours of the file are not yet multiplied by A.
+    data, light: Optional[str] = None,  # layers or channels of that kind, separated by commas (default: by their names).
 ): ...
 def FILE(
     **DEPTH,

@@ -26,10 +26,42 @@ TEST(ChannelKind, ColoursAreLight) {
 }
 
 TEST(ChannelKind, PositionsNormalsAndMotionAreData) {
-    for (const char *name :
-         {"N.R", "N.X", "P.B", "ViewLayer.Normal.X", "uv.R", "UV.U", "motionvector.R", "velocity.R", "Z",
-          "other.Z", "ViewLayer.Vector.W", "depth.R", "ViewLayer.Denoising Normal.X"})
+    for (const char *name : {"N.R",
+                             "N.X",
+                             "P.B",
+                             "ViewLayer.Normal.X",
+                             "uv.R",
+                             "UV.U",
+                             "motionvector.R",
+                             "velocity.R",
+                             "Z",
+                             "other.Z",
+                             "ViewLayer.Vector.W",
+                             "depth.R",
+                             "ViewLayer.Denoising Normal.X",
+                             "VRayNormals.R",
+                             "VRayBumpNormals.R",
+                             "VRayVelocity.G",
+                             "world_normal.B",
+                             "Pworld.R",
+                             "P_world.R",
+                             "rest.R",
+                             "Nn.R",
+                             "mv2d.R",
+                             "BumpNormals.R",
+                             "SHADING_NORMAL.R",
+                             "GeoNormal.R",
+                             "FinalImageWorldNormal.R",
+                             "Tangents.R",
+                             "Normal (geometric).R",
+                             "hitP.R",
+                             "dPdu.R",
+                             "MotionVectorsAndDepth.R"})
         EXPECT_EQ(kind_of(name), ChannelKind::data) << name;
+    for (const char *name :
+         {"point_lights.R", "abnormal.R", "rest_of_lights.R", "uv_lamps.R", "normalised.R", "demotion.R",
+          "diffuse_depth1.R", "p.diffuse.R", "North.R", "n_lights.R", "proposition.R"})
+        EXPECT_EQ(kind_of(name), ChannelKind::light) << name;
     EXPECT_FALSE(is_light(found({{"N.R"}})[0]));
     EXPECT_FALSE(holds_ids(found({{"N.R"}})[0]));
 }
@@ -66,7 +98,30 @@ TEST(ChannelKind, RanksOfACryptomatteByNameOrByTheHeader) {
     EXPECT_EQ(channels[1].rank, 0);
     EXPECT_EQ(kind_of("objects00.R"), ChannelKind::light);
     EXPECT_EQ(found({{"objects00.R", PixelType::float32}}, {"objects"})[0].kind, ChannelKind::matte_id);
-    EXPECT_EQ(kind_of("CryptoObject00.R", PixelType::half), ChannelKind::light); // a half cannot hold a hash
+    // A half cannot hold a hash, but two of them still tell objects apart.
+    EXPECT_EQ(kind_of("CryptoObject00.R", PixelType::half), ChannelKind::matte_id);
+    EXPECT_EQ(kind_of("VRayCryptomatte00.R"), ChannelKind::matte_id);
+    EXPECT_EQ(kind_of("uCryptoAsset01.A"), ChannelKind::matte_coverage);
+    EXPECT_EQ(kind_of("VRayCryptomatte.R"), ChannelKind::light); // the picture to look at
+}
+
+TEST(ChannelKind, IsWhatTheUserStates) {
+    std::vector<Channel> channels{{"fg.secret.R"}, {"secret.G"}, {"heat"}, {"N.X"}, {"R"}};
+    find_kinds(channels, {}, {.data = {"secret", "heat"}, .light = {"N"}});
+    for (const std::size_t k : {0u, 1u, 2u})
+        EXPECT_EQ(channels[k].kind, ChannelKind::data) << channels[k].name;
+    for (const std::size_t k : {3u, 4u}) EXPECT_EQ(channels[k].kind, ChannelKind::light) << channels[k].name;
+    std::vector<Channel> one{{"secret.R"}, {"other.R"}};
+    find_kinds(one, {}, {.data = {"secret.R"}});
+    EXPECT_EQ(one[0].kind, ChannelKind::data);
+    EXPECT_EQ(one[1].kind, ChannelKind::light);
+}
+
+TEST(NamesOfColours, TheCoverageOfEachColourAsOthersNameIt) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names_of_colours(found({{"RA"}, {"GA"}, {"BA"}, {"R"}})), (Names{"AR", "AG", "AB", "R"}));
+    EXPECT_EQ(names_of_colours(found({{"f.RA"}, {"f.GA"}, {"f.BA"}})), (Names{"f.AR", "f.AG", "f.AB"}));
+    EXPECT_EQ(names_of_colours(found({{"RA"}, {"GA"}, {"R"}})), (Names{"RA", "GA", "R"})); // not all three
 }
 
 TEST(Matte, IsFoundInAnyOrderOfItsChannels) {

@@ -91,9 +91,21 @@ TEST(InvalidValues, DepthZeroSaysThatNothingWasHit) {
 }
 
 TEST(InvalidValues, WithoutCoverageAnyDepthDoes) {
-    View view = view_around({.z = nan, .a = 0});
+    for (const float z : {nan, -1.0f, 0.0f, 3.0f}) {
+        View view = view_around({.z = z, .a = 0});
+        EXPECT_FALSE(sanitize(view).any());
+        EXPECT_EQ(view.z[4], inf);
+    }
+}
+
+// Fire, for example.
+TEST(InvalidValues, LightWithoutCoverageKeepsItsDepth) {
+    View view = view_around({.z = 3, .g = 2, .a = 0});
     EXPECT_FALSE(sanitize(view).any());
-    EXPECT_EQ(view.z[4], inf);
+    EXPECT_EQ(view.z[4], 3);
+    View nowhere = view_around({.z = nan, .g = 2, .a = 0});
+    EXPECT_FALSE(sanitize(nowhere).any());
+    EXPECT_EQ(nowhere.z[4], inf);
 }
 
 TEST(InvalidValues, MostDepthsBadIsAnotherConvention) {

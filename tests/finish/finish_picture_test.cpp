@@ -109,6 +109,18 @@ TEST(FinishPicture, WhereARenderSaysNothingItStaysAsGathered) {
     }
 }
 
+// The sun's disc is brighter than fits into the sums.
+TEST(FinishPicture, WhatIsTooBrightToFinishStaysAsGathered) {
+    Render first = render(1), second = render(2);
+    Image gathered = picture_of(blurred(truth, grid, 1));
+    for (Image *image : {&gathered, &first.image, &second.image})
+        for (std::size_t c = 0; c < 3; ++c) image->at(c, 20, 20) = 2e9f;
+    const FinishedPicture result = finished(gathered, {first, second});
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(result.image.at(c, 20, 20), 2e9f);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (const float v : result.image.plane(c)) ASSERT_TRUE(std::isfinite(v));
+}
+
 TEST(FinishPicture, CountsThePixelsThatAreMissing) {
     TwoHalves halves(picture_of(truth));
     Render cut = render(1);

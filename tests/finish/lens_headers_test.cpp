@@ -46,6 +46,17 @@ TEST(LensHeaders, EachMistakeIsNamed) {
     EXPECT_EQ(lens_differences(camera(), squeezed), Texts{"a squeeze of 2, not 1"});
 }
 
+TEST(LensHeaders, AnotherPlaceOfTheCameraIsNamed) {
+    Camera here = camera(), rounded = camera(), moved = camera();
+    here.world_to_camera = Imath::M44d().setTranslation(Imath::V3d(100, 2, -300));
+    rounded.world_to_camera = Imath::M44d().setTranslation(Imath::V3d(100, 2.001, -300));
+    moved.world_to_camera = Imath::M44d().setTranslation(Imath::V3d(100, 2.1, -300));
+    EXPECT_EQ(lens_differences(here, rounded), Texts());
+    EXPECT_EQ(lens_differences(here, moved),
+              Texts{"a camera that stands or looks elsewhere (worldToCamera)"});
+    EXPECT_EQ(lens_differences(camera(), moved), Texts());
+}
+
 // A hexagon turned by one side is the same.
 TEST(LensHeaders, ARotationIsNamedWhereItShows) {
     Camera hexagon = camera(), turned = camera();

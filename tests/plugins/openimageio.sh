@@ -60,6 +60,14 @@ exits 0 oiiotool --frames 1-2 'seq.dof?frame=#' -o out.#.exr
 exits 0 dof-gather seq.####.exr -o expected.####.exr "${lens[@]}" --focus-distance 1:3,2:1.5
 for frame in 0001 0002; do same out.$frame.exr expected.$frame.exr; done
 
+# The moments of a shutter.
+cp seq.0001.exr moments_0.exr
+picture edit seq.0002.exr moments_1.exr crop=100x60+20+10
+sed 's/flat.exr/moments_%s.exr/' shot.dof >moments.dof
+exits 0 oiiotool moments.dof -o out.exr
+exits 0 dof-gather moments_%s.exr -o expected.exr "${lens[@]}" --focus-distance 3
+same out.exr expected.exr
+
 # Tiles, with smaller sizes that are proxies.
 exits 0 oiiotool 'shot.dof?tiles=32' -o tiles.exr
 for level in 0 1 2 3; do

@@ -43,15 +43,41 @@ TEST(RollingShutter, WeightsAreIntegralsOfTheCurveOfEachRow) {
             for (int row = 0; row < rows; ++row) {
                 const double from = exposure_of_row(row, rows, duration).from;
                 const auto own = [&](int m) { return (double(m) / moments - from) / duration; };
+                double box_sum = 0, triangle_sum = 0; // weights count relative to their sum
                 for (int m = 0; m < moments; ++m) {
-                    const double unit = moments * duration, begin = own(m), end = own(m + 1);
-                    EXPECT_NEAR(box[std::size_t(m)][std::size_t(row)],
-                                unit * (box_until(end) - box_until(begin)), 1e-9);
-                    EXPECT_NEAR(triangle[std::size_t(m)][std::size_t(row)],
-                                unit * (triangle_until(end) - triangle_until(begin)), 1e-9);
+                    box_sum += box[std::size_t(m)][std::size_t(row)];
+                    triangle_sum += triangle[std::size_t(m)][std::size_t(row)];
+                }
+                for (int m = 0; m < moments; ++m) {
+                    const double begin = own(m), end = own(m + 1);
+                    EXPECT_NEAR(box[std::size_t(m)][std::size_t(row)] / box_sum,
+                                box_until(end) - box_until(begin), 1e-9);
+                    EXPECT_NEAR(triangle[std::size_t(m)][std::size_t(row)] / triangle_sum,
+                                triangle_until(end) - triangle_until(begin), 1e-9);
                 }
             }
         }
+}
+
+// Floats hold the weights of a curve in any unit, and the same picture follows.
+TEST(RollingShutter, TheUnitOfTheCurveDoesNotMatter) {
+    const auto wanted = row_weights(triangle_shutter(), 4, 0.3, rows);
+    for (const double unit : {0x1p1000, 0x1p-1000, 0x1p-1060}) {
+        ShutterCurve curve = triangle_shutter();
+        for (ShutterCurve::Point &point : curve.points) point.value *= unit;
+        const auto weights = row_weights(curve, 4, 0.3, rows);
+        for (int row = 0; row < rows; ++row)
+            for (std::size_t m = 0; m < 4; ++m)
+                EXPECT_NEAR(weights[m][std::size_t(row)], wanted[m][std::size_t(row)], 1e-3) << unit;
+    }
+    ShutterCurve needle; // narrower than doubles tell in the exposure of a row
+    needle.points = {{0, 0}, {0.5, 0}, {0.5 + 1e-16, 1}, {0.5 + 2e-16, 0}, {1, 0}};
+    const auto weights = row_weights(needle, 4, 0.001, rows);
+    for (int row = 0; row < rows; ++row) {
+        double sum = 0;
+        for (std::size_t m = 0; m < 4; ++m) sum += weights[m][std::size_t(row)];
+        EXPECT_GE(sum, 1);
+    }
 }
 
 TEST(RollingShutter, OfTheWholeTimeHasTheWeightsOfNone) {
@@ -59,8 +85,9 @@ TEST(RollingShutter, OfTheWholeTimeHasTheWeightsOfNone) {
         for (const int moments : {1, 3, 8, 11}) {
             const std::vector<double> all = moment_weights(curve, moments);
             const auto weights = row_weights(curve, moments, 1, rows);
+            const int exponent = std::ilogb(*std::ranges::max_element(all));
             for (std::size_t m = 0; m < all.size(); ++m)
-                EXPECT_EQ(weights[m], std::vector<double>(rows, all[m]));
+                EXPECT_EQ(weights[m], std::vector<double>(rows, std::ldexp(all[m], -exponent)));
         }
 }
 

@@ -128,6 +128,18 @@ exits 0 "$bin/dof-gather" in.exr -o out.jpg "${flat[@]}"
 oiiotool out.png -o expected.jpg
 idiff -q -fail 0 -warn 0 out.jpg expected.jpg >found || fail "out.jpg ($(cat found))"
 oiiotool --info out.tif | grep -q uint16 || fail "TIFF has no 16 bits"
+
+# A format without alpha shows an element over black, encoded as such; .hdr holds linear light.
+oiiotool --pattern constant:color=0.2,0.1,0.05,0.25,3 16x16 5 --chnames R,G,B,A,Z -d float -o element.exr
+oiiotool --pattern constant:color=0.2,0.1,0.05 16x16 3 -d float -o opaque.exr
+oiiotool --pattern constant:color=0.2,0.1,0.05,1,3 16x16 5 --chnames R,G,B,A,Z -d float -o full.exr
+for ending in jpg hdr; do
+    exits 0 "$bin/dof-gather" element.exr -o element.$ending "${flat[@]}"
+    exits 0 "$bin/dof-gather" full.exr -o full.$ending "${flat[@]}"
+    cmp element.$ending full.$ending || fail "an element over black as $ending"
+done
+oiiotool element.hdr -d float -o shown.exr
+within shown.exr opaque.exr 0.002 "the light of .hdr"
 exits 0 "$bin/dof-gather" in.exr -o raw.png "${flat[@]}" --view-transform Raw
 oiiotool raw.png -d float -o shown.exr
 picture edit in.exr expected.exr channels=R,G,B

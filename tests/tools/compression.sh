@@ -58,3 +58,19 @@ for tool in ldi-warp ldi-cluster; do
 done
 fails_saying 2 "--compression: flat files have one of none, rle, .*, dwab, .*not 'lzw'" "$bin/dof-gather" plain.exr -o x.exr --compression lzw
 fails_saying 2 "--compression applies to EXR, not to x.png" "$bin/dof-gather" plain.exr -o x.png "${lens[@]}" --compression zip
+
+# DWA changes what is named as a colour is, also positions; that is said. Ids are refused, and where a file has ids that were
+# compressed so, that is said.
+oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames P.X,P.Y,P.Z -d float -o positions.exr
+oiiotool plain.exr positions.exr --chappend -d float -o data.exr
+exits 0 "$bin/dof-gather" data.exr -o out.exr "${lens[@]}" --compression dwaa
+grep -q 'warning: out.exr: its compression .*changes the data of channel P.Y: give --compression zip' stderr || fail "data by dwaa: $(cat stderr)"
+exits 0 "$bin/dof-gather" data.exr -o out.exr "${lens[@]}" --compression piz
+[ ! -s stderr ] || fail "data by piz: $(cat stderr)"
+oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 4 --chnames Crypto00.R,Crypto00.G,Crypto00.B,Crypto00.A -d float -o ids.exr
+oiiotool plain.exr ids.exr --chappend -d float --compression dwaa -o lost.exr
+exits 0 "$bin/dof-gather" lost.exr -o out.exr "${lens[@]}"
+grep -q 'lost.exr: the ids in channel Crypto00.. were changed by the compression dwaa' stderr || fail "ids by dwaa: $(cat stderr)"
+oiiotool plain.exr ids.exr --chappend -d half -o halves.exr
+exits 0 "$bin/dof-gather" halves.exr -o out.exr "${lens[@]}"
+grep -q 'halves.exr: the ids in channel Crypto00.. are halves' stderr || fail "ids in halves: $(cat stderr)"

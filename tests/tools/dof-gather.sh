@@ -111,6 +111,8 @@ differ lens.exr out.exr "--lens"
 exits 0 "$gather" ldi.exr -o beaten.exr --lens lens.json --blades 0 --spherical 0
 same_pixels beaten.exr out.exr "options beat --lens"
 exits 0 "$gather" ldi.exr -o by-name.exr --lens "$source_dir/share/lenses/hexagon.json" --fstop 2
+exits 0 "$gather" ldi.exr -o installed.exr --lens hexagon --fstop 2
+same_pixels installed.exr by-name.exr "--lens by the name of an installed lens"
 exits 0 "$gather" ldi.exr -o by-pipe.exr --lens <(cat "$source_dir/share/lenses/hexagon.json") --fstop 2
 same_pixels by-pipe.exr by-name.exr "--lens through a pipe"
 for lens in "$source_dir"/share/lenses/*.json; do exits 0 "$gather" ldi.exr -o shared.exr --lens "$lens"; done

@@ -39,6 +39,18 @@ fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --le
 printf 'P6 2 2 255 abcdefghijkl' >view.ppm
 fails_saying 1 'view.ppm: not an EXR file' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
 
+# What a channel holds is told by its name, or by --data and --light, also to the next tool.
+oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames secret.R,secret.G,secret.B -d float -o secret.exr
+oiiotool one.exr secret.exr --chappend -d float -o secrets.exr
+exits 0 "$bin/dof-gather" secrets.exr -o out.exr "${flat[@]}" -v
+grep -q 'layer secret: light' stderr || fail "a layer of an unknown name: $(cat stderr)"
+exits 0 "$bin/ldi-warp" secrets.exr -o secrets.ldi.exr --data secret
+exits 0 "$bin/dof-gather" secrets.ldi.exr -o out.exr "${flat[@]}" -v
+grep -q 'layer secret: data' stderr || fail "--data: $(cat stderr)"
+exits 0 "$bin/dof-gather" secrets.ldi.exr -o out.exr "${flat[@]}" -v --light secret
+grep -q 'layer secret: light' stderr || fail "--light: $(cat stderr)"
+fails_saying 1 'secrets.exr: has no layer or channel secrets \(--data\)' "$bin/dof-gather" secrets.exr -o x.exr "${flat[@]}" --data secrets
+
 # One part per view: the first view is the picture.
 part rgba.exr rgba.left l_rgba.exr --sattrib view left
 part depth.exr depth.left l_depth.exr --sattrib view left

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstdint>
@@ -71,6 +72,15 @@ TEST_F(PictureFileWords, FilesAreRelativeToTheFile) {
               (std::vector<std::string>{path("a.exr"), path("b.exr"), "/lenses/petzval.json"}));
 }
 
+// What is written again changes the picture, so it has to be known.
+TEST_F(PictureFileWords, FilesThatFilesNameAreFound) {
+    for (const char *name : {"m_0.exr", "m_1.exr", "round.exr"}) write(name, "");
+    write("mine.json", R"({"aperture": "round.exr"})");
+    write("a.dof", R"({"ldi": "m_%s.exr", "lens": "mine.json"})");
+    EXPECT_EQ(files_in(words("a.dof")), (std::vector<std::string>{path("m_0.exr"), path("m_1.exr"),
+                                                                  path("mine.json"), path("round.exr")}));
+}
+
 TEST_F(PictureFileWords, TheFrameIsOfTheRequestTheQueryOrTheName) {
     for (const char *name : {"a.dof", "a.0012.dof", "a_0012.dof", "a12.dof"})
         write(name, R"({"ldi": "s.####.exr", "fstop": {"0": 0.5, "64": 64.5}})");
@@ -88,6 +98,11 @@ TEST_F(PictureFileWords, OnlyRegularFilesAreRead) {
     EXPECT_THROW(words("device.dof"), UsageError);
     EXPECT_THROW(words("folder.dof"), UsageError);
     EXPECT_THROW(words("none.dof"), Error);
+    ASSERT_EQ(::mkfifo(path("keys").c_str(), 0600), 0); // which nobody writes
+    write("keys.dof", R"({"ldi": "a.exr", "focus": "@keys"})");
+    write("lens.dof", R"({"ldi": "a.exr", "lens": "keys"})");
+    EXPECT_THROW(words("keys.dof"), UsageError);
+    EXPECT_THROW(words("lens.dof"), UsageError);
 }
 
 TEST(PipeRequest, IsParsedOrRefused) {

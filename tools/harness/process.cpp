@@ -198,7 +198,7 @@ private:
 Process::Process(const ProcessOptions &options, const ToolContext &tool) {
     keep_freed_memory();
     const int wanted = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    // Of n threads, oneTBB starts n - 1 and OpenEXR n.
+    // With n threads, oneTBB starts n - 1 and OpenEXR n.
     const int threads = wanted > 1 ? std::max(1, (threads_that_start(2 * wanted - 1) + 1) / 2) : 1;
     threads_ = std::make_unique<ThreadLimit>(threads);
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);

@@ -189,7 +189,7 @@ void add_files(const std::string &option, const std::string &path, std::vector<s
     }
     require_regular(path);
     files.push_back(path);
-    if (option != "--lens") return;
+    if (std::error_code unknown; option != "--lens" || !fs::is_regular_file(path, unknown)) return;
     if (const std::string aperture = aperture_named_in(path); !aperture.empty()) files.push_back(aperture);
 }
 

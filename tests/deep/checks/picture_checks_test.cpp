@@ -171,6 +171,44 @@ TEST(LensCheck, AViewBeyondThreeRadii) {
     EXPECT_TRUE(views_beyond_lens(referring_to(views), 0).empty()) << "unknown";
 }
 
+// A disc whose coverage falls to 0 over 20 pixels. `depth_of` gives the depth of a coverage.
+View soft_disc(const std::function<float(float coverage)> &depth_of) {
+    View view{.name = "view",
+              .image = Image(windows_of_size(100, 100), rgba_channels()),
+              .z = std::vector<float>(10'000, std::numeric_limits<float>::infinity())};
+    for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 100; ++x) {
+            const double from_middle = std::hypot(x - 50, y - 50);
+            const auto a = float(std::clamp((40 - from_middle) / 20, 0.0, 1.0));
+            const float light = (x / 4 + y / 4) % 2 == 0 ? 0.4f : 0.8f;
+            for (std::size_t k = 0; k < 4; ++k) view.image.at(k, x, y) = k < 3 ? a * light : a;
+            if (a > 0) view.z[std::size_t(100 * y + x)] = depth_of(a);
+        }
+    return view;
+}
+
+TEST(EdgeDepths, AreThoseOfTheSurfaceOrFollowCoverage) {
+    const View own = soft_disc([](float) { return 3.0f; }),
+               multiplied = soft_disc([](float a) { return 3 * a; }),
+               averaged = soft_disc([](float a) { return 3 * a + 1000 * (1 - a); });
+    EXPECT_GT(depths_at_edges(own).pixels, 1000u);
+    for (const View *view : {&own, &averaged}) EXPECT_FALSE(looks_multiplied(depths_at_edges(*view)));
+    for (const View *view : {&own, &multiplied}) EXPECT_FALSE(looks_averaged(depths_at_edges(*view)));
+    EXPECT_TRUE(looks_multiplied(depths_at_edges(multiplied)));
+    EXPECT_TRUE(looks_averaged(depths_at_edges(averaged)));
+    // A surface that recedes from the edge of the disc on.
+    EXPECT_FALSE(looks_averaged(depths_at_edges(soft_disc([](float a) { return 3 + (1 - a); }))));
+}
+
+TEST(LacksCoverage, WhereAIsZeroEverywhere) {
+    View view = soft_disc([](float) { return 3.0f; });
+    EXPECT_FALSE(lacks_coverage(view));
+    std::ranges::fill(view.image.plane(3), 0.0f);
+    EXPECT_TRUE(lacks_coverage(view));
+    std::ranges::fill(view.image.values, 0.0f);
+    EXPECT_FALSE(lacks_coverage(view)) << "shows nothing";
+}
+
 std::string said_of(const View &view, const ViewFacts &facts) {
     std::string all;
     for (const std::string &warning : picture_warnings(view, facts)) all += warning + "\n";

@@ -132,6 +132,22 @@ TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
 }
 
 // With 3 x 3 sub-pixels, the bars are as wide and as far apart in pixels of the picture as those above.
+// A see-through thing in the middle of a picture of few rows ends no surface, so it does not come back at the border.
+TEST(BeyondFrame, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
+    for (const int rows : {64, 72, 95, 96, 120}) {
+        const Ldi ldi = make_ldi(windows_of_size(8, rows), coloured, [&](int, int y) {
+            std::vector<Sample> samples{{depth_of(lens, 4), {0.5f, 1}}};
+            if (3 * y >= rows && 3 * y < 2 * rows)
+                samples.insert(samples.begin(), {depth_of(lens, -4), {0.9f, 0.9f}});
+            return samples;
+        });
+        const BeyondFrame all = beyond(ldi, ldi.windows.data);
+        for (int y = all.ldi.windows.data.min.y; y < 0; ++y)
+            for (const std::uint64_t i : all.ldi.pixel(all.ldi.windows.index(4, y)))
+                EXPECT_EQ(all.ldi.values[0][i], 0.5f) << rows << " rows, row " << y;
+    }
+}
+
 TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
     const auto ends = [](int cut, int width, int apart) {
         std::vector<double> cocs(std::size_t(cut), -2.9);
@@ -242,10 +258,10 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             };
             std::vector<Run> runs;
             for (int m = 0; m < 64; ++m) {
-                const SampleRange here = of_pixel(q + m * in);
-                const bool solid =
-                    !here.empty() && (alpha == npos || ldi.values[alpha][here.front()] >= 0.9995f);
-                const double depth = solid ? near(here.front()) : -1;
+                if (!ldi.windows.data.intersects(q + m * in)) break;
+                double depth = -1; // of the first opaque sample
+                for (const std::uint64_t i : of_pixel(q + m * in))
+                    if (depth < 0 && (alpha == npos || ldi.values[alpha][i] >= 0.9995f)) depth = near(i);
                 if (runs.empty() || std::abs(depth - runs.back().last) >= 0.5)
                     runs.push_back({depth, depth, 1});
                 else

@@ -101,6 +101,16 @@ TEST_F(FileStream, LinksInACircleAreAnError) {
     EXPECT_EQ(folder.entries(), 2u);
 }
 
+TEST_F(FileStream, KeepsTheModeOfWhatItReplaces) {
+    put_contents(path, "old");
+    ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+    write_file(path, "new");
+    struct stat info {};
+    ASSERT_EQ(::stat(path.c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777, 0600u);
+    EXPECT_EQ(contents_of(path), "new");
+}
+
 TEST_F(FileStream, KeepsTheUmask) {
     const mode_t before = ::umask(027);
     write_file(path, "x");
