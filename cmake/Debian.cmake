@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME sparselens)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS python3) # for the script that submits to OpenCue
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS python3) # for the scripts that submit to OpenCue and read USD
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS libvulkan1) # for GPUs: opened by name where one is asked for
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "The tools turn a pinhole render and a few views from the rim of the lens into
 a layered depth image, and that into pictures with depth of field, for any

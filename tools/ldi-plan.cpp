@@ -5,7 +5,6 @@
 #include "chain/usd_shot.h"
 #include "harness/commands/named_files.h"
 #include "harness/tool.h"
-#include "io/files/text_file.h"
 #include "io/moment_files.h"
 #include "io/plan_file.h"
 #include "options/plan_options.h"
@@ -90,14 +89,14 @@ Stats plan_stats(const Plan &plan, int views_allowed, const PlanSetting &setting
 
 void write_layer(const PlanCommand &options, UsdViews &views) {
     if (options.up_axis) views.up_axis = *options.up_axis;
-    write_text_file(options.cameras, usd_text(views));
+    write_usd_views(options.cameras, views);
 }
 
 // Writes the cameras around a camera of USD.
 void write_shot(const PlanCommand &options, const ToolContext &tool, UsdViews &all_frames) {
     if (options.camera.file.empty() || !holds_all_frames(options.cameras))
         throw UsageError(
-            "give a centre view, or `camera=SHOT.usda` and `cameras=VIEWS.usda` for cameras alone");
+            "give a centre view, or `camera=SHOT.usd` and `cameras=VIEWS.usd` for cameras alone");
     if (!options.output.empty()) throw UsageError("`output`: a plan needs a centre view");
     ShotRequest request{options.camera, options.lens, options.plan.views, options.size};
     if (!request.camera.frame) request.camera.frame = tool.frame;
@@ -122,7 +121,12 @@ void write_planned(const PlanCommand &options, const ToolContext &tool, const Pl
         warn_once(tool, "mirrored",
                   options.centre + ": the world of its camera is left-handed; " + options.cameras +
                       " has z with the other sign");
-    if (stated.file()) all_frames.up_axis = stated.file()->layer.up_axis;
+    if (stated.file()) {
+        all_frames.up_axis = stated.file()->up_axis;
+        all_frames.frames_per_second = stated.file()->frames_per_second;
+        all_frames.stage = stage_of(options.camera);
+        all_frames.camera = stated.centre(options.centre)->path;
+    }
     write_layer(options, all_frames);
 }
 
@@ -136,7 +140,7 @@ PlanCommand for_moment(PlanCommand options, const std::string &moment) {
 OpenedView open_centre(const PlanCommand &options, const StatedCameras &stated) {
     const std::optional<FilmCamera> film = stated.of_centre(options.centre);
     OpenedView centre = open_view(options.centre, {options.lens, options.depth, film});
-    if (const auto warning = stated_warning(film, options.lens)) centre.warnings.push_back(*warning);
+    for (const std::string &warning : stated_warnings(film, options.lens)) centre.warnings.push_back(warning);
     return centre;
 }
 

@@ -110,7 +110,8 @@ PlacedViews open_views(const LdiFromViews &request) {
         depths_of_pictures(request.depth, request.depth_files, paths.size());
     const std::vector<std::optional<FilmCamera>> films = films_of(request, paths);
     OpenedPackedView centre = open_packed(paths[0], {request.lens, depths[0], films[0]});
-    if (const auto warning = stated_warning(films[0], request.lens)) centre.warnings.push_back(*warning);
+    for (const std::string &warning : stated_warnings(films[0], request.lens))
+        centre.warnings.push_back(warning);
     const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
     describe_as(centre, placed);

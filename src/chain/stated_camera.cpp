@@ -1,7 +1,6 @@
 #include "chain/stated_camera.h"
 
 #include "base/error.h"
-#include "io/usd/usd_transform.h"
 
 #include <fmt/format.h>
 
@@ -9,20 +8,29 @@
 
 namespace sparselens {
 
-StatedCameras::StatedCameras(const CameraRequest &request)
-    : request_(request), usd_(request.file.empty() ? nullptr : std::make_unique<UsdCameras>(request.file)) {}
+std::string stage_of(const CameraRequest &request) {
+    return is_camera_json(request.file) ? "" : request.file;
+}
 
-FilmCamera StatedCameras::at_frame(const UsdPath &camera) const {
-    if (!request_.frame && is_animated(camera))
-        throw UsageError(
-            fmt::format("{}<{}> is animated: give `camera_frame`", usd_->layer.file, text_of(camera)));
+StatedCameras::StatedCameras(const CameraRequest &request) : request_(request) {
+    if (!request.file.empty()) usd_ = read_usd_cameras(request.file, request.frame);
+}
+
+FilmCamera StatedCameras::at_frame(const UsdCamera &camera) const {
+    if (!request_.frame && camera.frames.size() > 1)
+        throw UsageError(fmt::format("{}<{}> is animated: give `camera_frame`", usd_->file, camera.path));
     return film_camera(*usd_, camera, request_.frame.value_or(0));
 }
 
+const UsdCamera *StatedCameras::centre(const std::string &file) const {
+    if (!usd_) return nullptr;
+    const UsdCamera *by_file = request_.name.empty() ? camera_of_file(*usd_, file) : nullptr;
+    return by_file ? by_file : &camera_called(*usd_, request_.name);
+}
+
 std::optional<FilmCamera> StatedCameras::of_centre(const std::string &file) const {
-    if (!usd_) return {};
-    const UsdPath *by_file = request_.name.empty() ? camera_of_file(*usd_, file) : nullptr;
-    return at_frame(by_file ? *by_file : camera_called(*usd_, request_.name));
+    const UsdCamera *camera = centre(file);
+    return camera ? std::optional(at_frame(*camera)) : std::nullopt;
 }
 
 std::vector<std::optional<FilmCamera>> StatedCameras::of_views(const std::vector<std::string> &files,
@@ -31,7 +39,7 @@ std::vector<std::optional<FilmCamera>> StatedCameras::of_views(const std::vector
     const std::string *missing = nullptr;
     std::size_t count = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const UsdPath *camera = camera_of_file(*usd_, files[i]);
+        const UsdCamera *camera = camera_of_file(*usd_, files[i]);
         if (camera)
             found[i] = at_frame(*camera), ++count;
         else if (!missing)
@@ -41,14 +49,14 @@ std::vector<std::optional<FilmCamera>> StatedCameras::of_views(const std::vector
         throw UsageError(
             fmt::format("{}: {} has no camera of this name, but one for other views; name files as "
                         "cameras are named (view_0.exr, view_0.0001.exr)",
-                        *missing, usd_->layer.file));
+                        *missing, usd_->file));
     centre.places = files.empty() || count > 0;
     if (count == 0) std::ranges::fill(found, centre);
     return found;
 }
 
-std::optional<std::string> stated_warning(const std::optional<FilmCamera> &film, const LensValues &lens) {
-    return film && !lens.focal_length_mm ? film_warning(*film) : std::nullopt;
+std::vector<std::string> stated_warnings(const std::optional<FilmCamera> &film, const LensValues &lens) {
+    return film ? film_warnings(*film, lens.focal_length_mm.has_value()) : std::vector<std::string>();
 }
 
 } // namespace sparselens

@@ -12,7 +12,7 @@
 namespace sparselens {
 
 struct ShotRequest {
-    CameraRequest camera; // without a frame: all times at which the camera changes, and the frames between
+    CameraRequest camera; // without a frame: all frames of the camera
     LensValues lens = {};
     int views = 4;
     std::optional<Imath::V2i> size = {}; // of the picture; empty: of the render settings

@@ -6,6 +6,7 @@
 size=${2:-240x135} truth_samples=${3:-256} samples=${4:-64}
 blender -b --python-expr 'import bpy, sys; sys.exit(0 if hasattr(bpy.ops.wm, "usd_import") and bpy.app.build_options.usd else 1)' >said 2>&1 ||
     skip "needs a Blender with USD"
+usd_python
 in_blender -P "$scene" -- CYCLES "$size" save "$PWD/still.blend"
 in_blender still.blend -P "$scene" -- CYCLES "$size" truth "$truth_samples" "$PWD/truth.exr"
 in_blender still.blend -P "$views" -- "${plain[@]}" -o script --samples "$samples"

@@ -19,7 +19,7 @@ for script in sparselens_views.py sparselens_blender/{__init__,panel,command}.py
     [ -s "$prefix/share/sparselens/blender/$script" ] || fail "the Blender add-on lacks $script"
 done
 [ -s "$prefix/share/sparselens/lenses/petzval.json" ] || fail "the lenses of docs/looks.md are not installed"
-for script in slurm/submit.sh slurm/warp.sh slurm/gather.sh opencue/submit.py; do
+for script in slurm/submit.sh slurm/warp.sh slurm/gather.sh opencue/submit.py python/usd_cameras.py; do
     [ -x "$prefix/share/sparselens/$script" ] || fail "$script is not installed, or is no executable"
 done
 

@@ -75,6 +75,15 @@ answers_help() {
     fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
+# usd_python: installs USD's library (usd-core of PyPI) for the tools, whose Python is then $SPARSELENS_USD_PYTHON; or skips.
+usd_python() {
+    python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
+    python3 -m venv usd_python
+    usd_python/bin/pip -q --disable-pip-version-check install --retries 1 usd-core >installed 2>&1 ||
+        skip "usd-core: PyPI cannot be reached, or has no wheel for this Python"
+    export SPARSELENS_USD_PYTHON=$PWD/usd_python/bin/python
+}
+
 # The options of the numbers among the looks of a lens, but for the blades, as the table of looks has them.
 options_of_looks() {
     "$bin/dof-gather" --help | sed -nE '/^Lens looks:$/,/^Highlights:$/s/^  (--[a-z-]+) [A-Z]{1,3}( .*)?$/\1/p' | grep -v '^--blade'

@@ -10,8 +10,6 @@ cp view_0.exr right.exr
 cp view_1.exr left.exr
 cp center.exr beauty.exr
 for view in center view_0 view_1; do cp $view.exr smooth.$view.exr; done
-ldi-plan center.exr -o plan.json --views 0 --cameras shot.usda
-ldi-plan --camera shot.usda --views 2 --cameras views.usda
 cp ldi.exr front.exr
 cp ldi.exr back.exr
 cp ldi.exr deep.exr
@@ -19,8 +17,8 @@ dof-gather ldi.exr -o picture.exr
 for frame in 0001 0002 0003; do for name in picture rays_1 rays_2; do cp $name.exr $name.$frame.exr; done; done
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 
-# Tools that take long, do not end, or need a plate have their own scripts.
-elsewhere='^dof-(match|report|view) '
+# Tools that take long, do not end, need a plate or USD's library have their own scripts.
+elsewhere='^dof-(match|report|view) |\.usd'
 ran=0
 for tool in "$bin"/dof-* "$bin"/ldi-*; do
     name=$(basename "$tool")
@@ -34,7 +32,7 @@ for tool in "$bin"/dof-* "$bin"/ldi-*; do
         grep -qF -e "${command%%|*}" page || fail "the manual page of $name lacks: $command"
         [[ $command =~ $elsewhere ]] && continue
         mkdir run
-        cp -- *.exr *.usda run
+        cp -- *.exr run
         (cd run && bash -ec "$command" >said 2>&1) || fail "$command: $(cat run/said)"
         rm -r run
         ran=$((ran + 1))

@@ -113,7 +113,7 @@ for camera, row in zip(cameras["cameras"], rows):
     written = [float(number) for number in re.findall(r"[-+.\de]+", found[1])]
     assert all(abs(a - b) < 1e-5 for a, b in zip(written, matrix)), (file, written, matrix)
 END
-fails_saying 2 'must end in .json, .csv or .usda' "$plan" full/center.exr -o x.json --cameras cameras.txt
+fails_saying 2 'must end in .json, .csv, .usd, .usda or .usdc' "$plan" full/center.exr -o x.json --cameras cameras.txt
 fails_saying 2 'would be written 2 times' "$plan" full/center.exr -o x.#.json --frames 1-2 --cameras cameras.json
 
 # Every option has an effect.

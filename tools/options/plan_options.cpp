@@ -1,5 +1,6 @@
 #include "options/plan_options.h"
 
+#include "harness/commands/named_files.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
 #include "options/warp_options.h"
@@ -16,9 +17,9 @@ namespace {
 CLI::Validator camera_file() {
     return CLI::Validator(
         [](std::string &name) {
-            return name.ends_with(".json") || name.ends_with(".csv") || name.ends_with(".usda")
+            return name.ends_with(".json") || name.ends_with(".csv") || holds_all_frames(name)
                        ? ""
-                       : "must end in .json, .csv or .usda, not '" + name + "'";
+                       : "must end in .json, .csv, .usd, .usda or .usdc, not '" + name + "'";
         },
         "");
 }
@@ -52,13 +53,13 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
         ->type_name("DIR");
     app.add_option(
            "--cameras", options.cameras,
-           "File for the cameras of the views: offsets, matrices, screen window, for any renderer; as USD, "
-           "one file for all frames of a range, with cameras and render products")
-        ->type_name("FILE.json|FILE.csv|FILE.usda")
+           "File for the cameras of the views: offsets, matrices, screen window, for any renderer; as USD "
+           "(.usd, .usda, .usdc), one file for all frames of a range, with cameras and render products")
+        ->type_name("FILE.json|FILE.csv|FILE.usd")
         ->check(camera_file());
     app.add_option_function<std::string>(
            "--up-axis", [&options](const std::string &axis) { options.up_axis = axis[0]; },
-           "Axis of the world that points up, as --cameras FILE.usda states it (default: as in --camera, "
+           "Axis of the world that points up, as --cameras FILE.usd states it (default: as in --camera, "
            "else Y)")
         ->type_name("Y|Z")
         ->check(CLI::IsMember({"Y", "Z"}));
@@ -98,7 +99,7 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
                        {"Print where the cameras stand, for a spreadsheet or a script",
                         "ldi-plan center.exr -o plan.json --cameras cameras.csv"},
                        {"Write the cameras around a camera of USD, with all its keys",
-                        "ldi-plan --camera shot.usda --size 1920x1080 --cameras views.usda"}});
+                        "ldi-plan --camera shot.usd --size 1920x1080 --cameras views.usda"}});
 }
 
 } // namespace sparselens

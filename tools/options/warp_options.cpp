@@ -87,9 +87,10 @@ void add_camera_options(CLI::App &app, CameraRequest &camera) {
     CLI::Option *file =
         app.add_option(
                "--camera", camera.file,
-               "Layer of USD whose cameras give position, frustum, focus and f-stop, instead of the files "
-               "of the views; each view has the camera of its name (view_0.exr: view_0)")
-            ->type_name("SHOT.usda")
+               "Stage of USD whose cameras give position, frustum, focus and f-stop, instead of the files "
+               "of the views; each view has the camera of its name (view_0.exr: view_0). It is read by "
+               "python3 with usd-core, or the Python that SPARSELENS_USD_PYTHON names; or cameras as JSON")
+            ->type_name("SHOT.usd|SHOT.json")
             ->group("Lens");
     app.add_option("--camera-name", camera.name,
                    "Camera of the centre view: its path or its name (default: the only one, or center)")

@@ -28,7 +28,8 @@ struct FilmCamera {
     double metres_per_unit = 0.01;
     std::optional<double> fstop = {}, focus_distance = {}; // as in Camera
     Imath::M44d world_to_camera = {};                      // as in Camera
-    bool places = true; // false: world_to_camera is not used, only the frustum and the lens
+    bool places = true;       // false: world_to_camera is not used, only the frustum and the lens
+    std::string warning = {}; // what its file lacks; or empty
 };
 
 // The camera of the file with the values of `film` instead of its own. `windows` are the picture's.

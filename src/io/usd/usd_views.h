@@ -1,11 +1,12 @@
 // Writes the cameras of the centre view and the rim views as a layer of USD, with render products, so that any renderer
-// of USD takes the views (UsdGeomCamera, UsdRender).
+// of USD takes the views (UsdGeomCamera, UsdRender). The script of usd_script.h does so.
 //
 //   /sparselens/lens                   the place of the lens, keyed
 //   /sparselens/lens/center, view_0    cameras without depth of field (fStop 0); rim cameras are moved right and up
 //   /Render/sparselens                 settings: size of the picture, one product per camera, colour and planar depth
 //
-// Cameras keep the lens as sparselens:fStop and sparselens:focusDistance, so that film_camera() finds it again.
+// Cameras keep the lens as sparselens:fStop and sparselens:focusDistance, so that film_camera() finds it again; and all
+// other attributes of the camera that they are made of (exposure, shutter:open, custom ones), with their time samples.
 #pragma once
 
 #include "base/image.h"
@@ -35,6 +36,7 @@ struct UsdLensFrame {
 
 struct UsdViews {
     std::string source;         // what they were made of, for readers
+    std::string stage, camera;  // whose other attributes they have; or empty
     double metres_per_unit = 1; // of all frames
     char up_axis = 'Y';
     double frames_per_second = 24;
@@ -52,7 +54,11 @@ UsdLensFrame usd_lens_frame(const Camera &camera, const ThinLens &lens, int disp
 // Adds the lens points that are not there yet.
 void add_lens_points(UsdViews &views, const std::vector<Imath::V2d> &points);
 
-// The layer as text. Floats of USD get all digits of a double.
-std::string usd_text(const UsdViews &views);
+// The views as the script takes them: JSON, with the values of cameras by their names in USD.
+std::string usd_views_json(const UsdViews &views);
+
+// Writes the layer (.usda, .usdc, .usd); it appears complete or not at all. Throws Error, naming it, if it cannot be
+// written.
+void write_usd_views(const std::string &path, const UsdViews &views);
 
 } // namespace sparselens

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
@@ -17,6 +18,7 @@
 namespace sparselens {
 namespace {
 
+using Json = nlohmann::json;
 const Windows wide = windows_of_size(640, 360);
 const Tell nobody = [](const Notice &) {};
 
@@ -40,9 +42,39 @@ class UsdViewsInFiles : public testing::Test {
 protected:
     ScratchFolder folder;
 
-    std::string put(const std::string &text, const std::string &name = "views.usda") {
-        put_contents(folder.file(name), text);
+    std::string put(const Json &json, const std::string &name = "views.json") {
+        put_contents(folder.file(name), json.dump());
         return folder.file(name);
+    }
+    UsdCameras read(const UsdViews &views) { return read_usd_cameras(put(stage_of(views)), {}); }
+
+    // The cameras of the layer that the script writes, as it reads them again; tests/tools/usd_cameras_test.py asks
+    // that it does.
+    static Json stage_of(const UsdViews &views) {
+        const Json json = Json::parse(usd_views_json(views));
+        Json cameras;
+        for (const auto &[name, point] : json["points"].items()) {
+            Json frames;
+            for (const Json &frame : json["frames"]) {
+                const double radius = frame["radius"];
+                std::vector<double> m = frame["to_world"];
+                for (std::size_t k = 0; !point.is_null() && k < 3; ++k)
+                    m[12 + k] += radius * (double(point[0]) * m[k] + double(point[1]) * m[4 + k]);
+                Json values = frame["camera"];
+                values.update({{"time", frame["time"]}, {"to_world", m}, {"fStop", 0}});
+                frames.push_back(values);
+            }
+            cameras.push_back({{"path", "/sparselens/lens/" + name}, {"frames", frames}});
+        }
+        return {{"metersPerUnit", json["metersPerUnit"]},
+                {"upAxis", json["upAxis"]},
+                {"timeCodesPerSecond", json["timeCodesPerSecond"]},
+                {"settings",
+                 {{"path", "/Render/sparselens"},
+                  {"resolution", json["resolution"]},
+                  {"pixelAspectRatio", json["pixel_aspect"]},
+                  {"aspectRatioConformPolicy", "expandAperture"}}},
+                {"cameras", cameras}};
     }
     static PlannedViews plan_of(const Camera &camera, const std::vector<Imath::V2d> &points) {
         PlannedViews planned;
@@ -60,9 +92,9 @@ TEST_F(UsdViewsInFiles, AreReadAgain) {
         const double radius = radius_of(2.8, 35, unit);
         UsdViews views;
         add_planned(views, plan_of(camera, {{1, 0}, {0, 1}, {-0.6, -0.8}}), {});
-        const UsdCameras usd(put(usd_text(views)));
+        const UsdCameras usd = read(views);
         ASSERT_EQ(usd.cameras.size(), 4u);
-        EXPECT_EQ(usd.layer.metres_per_unit, unit);
+        EXPECT_EQ(usd.metres_per_unit, unit);
         EXPECT_EQ(usd.resolution, Imath::V2i(640, 360));
         const Camera centre = with_film(film_camera(usd, camera_called(usd, ""), 0), {}, wide);
         EXPECT_NEAR(*centre.focal_length_mm, 35, 1e-12);
@@ -83,24 +115,19 @@ TEST_F(UsdViewsInFiles, AreReadAgain) {
     }
 }
 
-TEST_F(UsdViewsInFiles, SwitchDepthOfFieldOffAndNameTheirProducts) {
+TEST_F(UsdViewsInFiles, SayWhatOfThePictureTheyShow) {
     UsdViews views;
     add_planned(views, plan_of(some_camera(1), {{1, 0}}), {});
-    const std::string text = usd_text(views);
-    const auto count = [&](const std::string &what) {
-        std::size_t n = 0;
-        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-        return n;
-    };
-    EXPECT_EQ(count("float fStop = 0\n"), 2u);
-    EXPECT_EQ(count("def RenderProduct"), 2u);
-    EXPECT_EQ(count("token productName = \"view_0.exr\""), 1u);
-    EXPECT_EQ(count("rel orderedVars = [</Render/sparselens/rgba>, </Render/sparselens/depth>]"), 2u);
-    EXPECT_EQ(count("timeSamples"), 0u); // a still picture
-    EXPECT_EQ(count("dataWindowNDC"), 0u);
+    const auto json = [&] { return Json::parse(usd_views_json(views)); };
+    EXPECT_EQ(json()["keyed"], false);
+    EXPECT_EQ(json()["resolution"], Json::array({640, 360}));
+    EXPECT_TRUE(json()["data_window"].is_null());
     views.windows.data = {Imath::V2i(-64, -36), Imath::V2i(639, 359)}; // beyond the left and the top
-    EXPECT_NE(usd_text(views).find("dataWindowNDC = (-0.1, 0, 1, 1.1)"), std::string::npos)
-        << usd_text(views);
+    EXPECT_EQ(json()["data_window"], Json::array({-0.1, 0.0, 1.0, 1.1}));
+    views.frames[0].focus_distance = HUGE_VAL;
+    const Json camera = json()["frames"][0]["camera"];
+    EXPECT_TRUE(camera["sparselens:focusDistance"].is_null());
+    EXPECT_EQ(camera["focusDistance"], 0);
 }
 
 // Frames whose plans have different views: the layer has the cameras of all, and only what changes is keyed.
@@ -110,11 +137,8 @@ TEST_F(UsdViewsInFiles, HoldAllFramesOfARange) {
     add_planned(views, plan_of(camera, {{1, 0}, {0, 1}}), 7);
     camera.fstop = 1.4;
     add_planned(views, plan_of(camera, {{-1, 0}, {0, 1}}), 8);
-    const std::string text = usd_text(views);
-    EXPECT_NE(text.find("startTimeCode = 7\n"), std::string::npos);
-    EXPECT_NE(text.find("8: \"view_2.0008.exr\""), std::string::npos);
-    EXPECT_NE(text.find("matrix4d xformOp:transform = "), std::string::npos); // it stands still
-    const UsdCameras usd(put(text));
+    EXPECT_EQ(Json::parse(usd_views_json(views))["keyed"], true);
+    const UsdCameras usd = read(views);
     ASSERT_EQ(usd.cameras.size(), 4u);
     for (const int frame : {7, 8}) {
         const double fstop = frame == 7 ? 2.8 : 1.4;
@@ -145,24 +169,36 @@ TEST_F(UsdViewsInFiles, HoldAllFramesOfARange) {
 }
 
 TEST_F(UsdViewsInFiles, FollowACameraOfUsdOverItsKeys) {
-    const std::string shot = put(
-        "#usda 1.0\n( metersPerUnit = 0.01 upAxis = \"Z\" )\ndef Camera \"c\" { float focalLength = "
-        "40\nfloat "
-        "horizontalAperture = 36\nfloat verticalAperture = 20.25\nfloat focusDistance = 200\nfloat "
-        "fStop.timeSamples = { 1: 2, 4.5: 4 }\ndouble3 xformOp:rotateXYZ.timeSamples = { 1: (0, 0, 0), 4.5: "
-        "(0, 70, "
-        "0) }\nuniform token[] xformOpOrder = [\"xformOp:rotateXYZ\"]\nfloat2 clippingRange = (2, 3000) }",
-        "shot.usda");
+    const std::vector<double> times{1, 2, 3, 4, 4.5};
+    Json frames;
+    for (const double time : times) {
+        const double angle = 0.35 * (time - 1);
+        frames.push_back({{"time", time},
+                          {"to_world",
+                           {std::cos(angle), 0, -std::sin(angle), 0, 0, 1, 0, 0, std::sin(angle), 0,
+                            std::cos(angle), 0, time, 0, 0, 1}},
+                          {"focalLength", 40},
+                          {"horizontalAperture", 36},
+                          {"verticalAperture", 20.25},
+                          {"focusDistance", 200},
+                          {"fStop", 2 + (time - 1) * 4 / 7},
+                          {"clippingRange", {2, 3000}}});
+    }
+    const std::string shot = put({{"metersPerUnit", 0.01},
+                                  {"upAxis", "Z"},
+                                  {"timeCodesPerSecond", 25},
+                                  {"settings", nullptr},
+                                  {"cameras", Json::array({Json{{"path", "/c"}, {"frames", frames}}})}},
+                                 "shot.json");
     ShotRequest request{.camera = {.file = shot}, .size = Imath::V2i(640, 360)};
     const UsdViews views = views_of_shot(request, nobody);
     EXPECT_EQ(views.up_axis, 'Z');
-    std::vector<double> times;
-    for (const auto &[time, frame] : views.frames) times.push_back(time);
-    EXPECT_EQ(times, (std::vector<double>{1, 2, 3, 4,
-                                          4.5})); // frames between keys, as turns are not linear in a matrix
-    const UsdCameras usd(put(usd_text(views)));
+    EXPECT_EQ(views.frames_per_second, 25);
+    EXPECT_EQ(views.stage, ""); // JSON has no other attributes
+    EXPECT_TRUE(views.keyed);
+    ASSERT_EQ(views.frames.size(), times.size());
+    const UsdCameras usd = read(views), of_shot = read_usd_cameras(shot, {});
     for (const double time : times) {
-        const UsdCameras of_shot(shot);
         const FilmCamera truth = film_camera(of_shot, of_shot.cameras[0], time);
         const FilmCamera found = film_camera(usd, camera_called(usd, ""), time);
         EXPECT_TRUE(found.world_to_camera.equalWithAbsError(truth.world_to_camera, 1e-12)) << time;
@@ -182,7 +218,7 @@ TEST_F(UsdViewsInFiles, FollowACameraOfUsdOverItsKeys) {
 TEST_F(UsdViewsInFiles, GiveEachFileTheCameraOfItsName) {
     UsdViews views;
     add_planned(views, plan_of(some_camera(1), {{1, 0}, {0, 1}}), {});
-    const StatedCameras stated({.file = put(usd_text(views))});
+    const StatedCameras stated({.file = put(stage_of(views))});
     std::optional<FilmCamera> centre = stated.of_centre("renders/center.exr");
     ASSERT_TRUE(centre);
     const auto rim = stated.of_views({"renders/view_1.exr", "renders/view_0.0001.exr"}, *centre);
@@ -199,7 +235,7 @@ TEST_F(UsdViewsInFiles, GiveEachFileTheCameraOfItsName) {
     EXPECT_FALSE(StatedCameras({}).of_centre("center.exr"));
     views.frames[1] = views.frames[0];
     views.frames[1].fstop *= 2;
-    const std::string animated = put(usd_text(views));
+    const std::string animated = put(stage_of(views));
     EXPECT_NE(what_of<UsageError>([&] {
                   StatedCameras({.file = animated}).of_centre("center.exr");
               }).find("is animated: give `camera_frame`"),

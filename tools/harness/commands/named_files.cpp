@@ -86,7 +86,9 @@ Readers readers_of(std::span<const NamedFiles> commands) {
 
 } // namespace
 
-bool holds_all_frames(std::string_view path) { return path.ends_with(".usda"); }
+bool holds_all_frames(std::string_view path) {
+    return path.ends_with(".usda") || path.ends_with(".usdc") || path.ends_with(".usd");
+}
 
 bool is_input_word(std::string_view word) { return is_among(input_options, word); }
 
