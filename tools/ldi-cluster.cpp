@@ -43,6 +43,7 @@ void add_options(CLI::App &app, Options &options) {
     add_parameters(app, lens_parameters(), options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
+    add_parameters(app, kind_parameters(), options.depth.picture);
     add_depth_files_option(app, options.depth_files);
     add_history_option(app, options.history);
     add_examples(app, {{"Merge samples that no lens tells apart", "ldi-cluster ldi.exr -o small.exr"},

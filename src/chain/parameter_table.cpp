@@ -109,16 +109,21 @@ ParameterRows<PictureChoice> choice_parameters() {
          {text("layer", "NAME",
                "Picture to read if a file holds several, such as view layers of Blender, with its depth and "
                "passes (default: the only one)"),
-          in(&PictureChoice::layer)},
-         {in_group("Colour", text("data", "LAYER,...",
-                                  "Layers or channels that hold data, such as positions, and not light; -v "
-                                  "lists what each is taken for (default: by their names)")),
-          in(&PictureChoice::data)},
-         {in_group("Colour",
-                   text("light", "LAYER,...",
-                        "Layers or channels that hold light, though their names are those of data")),
-          in(&PictureChoice::light)}},
+          in(&PictureChoice::layer)}},
         "Lens", "", PythonCall::open_ldi);
+    return rows;
+}
+
+ParameterRows<PictureChoice> kind_parameters() {
+    static const auto rows = all<PictureChoice>(
+        {{text("data", "LAYER,...",
+               "Layers or channels that hold data, such as positions, and not light; -v lists what each is "
+               "taken for (default: by their names)"),
+          in(&PictureChoice::data)},
+         {text("light", "LAYER,...",
+               "Layers or channels that hold light, though their names are those of data"),
+          in(&PictureChoice::light)}},
+        "Colour", "", PythonCall::open_ldi);
     return rows;
 }
 

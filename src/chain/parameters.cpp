@@ -37,8 +37,8 @@ std::span<const Parameter *const> picture_parameters() {
             (add(parts), ...);
             return all;
         }(gather_parameters(), lens_parameters(), look_parameters(), depth_parameters(), choice_parameters(),
-          depth_file_parameters(), input_colour_parameters(), output_colour_parameters(), window_parameters(),
-          shown_parameters());
+          kind_parameters(), depth_file_parameters(), input_colour_parameters(), output_colour_parameters(),
+          window_parameters(), shown_parameters());
     return rows;
 }
 

@@ -63,6 +63,7 @@ ParameterRows<LensValues> lens_parameters();
 ParameterRows<GivenLooks> look_parameters(); // also the highlights
 ParameterRows<DepthOptions> depth_parameters();
 ParameterRows<PictureChoice> choice_parameters();     // which picture of a file
+ParameterRows<PictureChoice> kind_parameters();       // what its channels hold
 ParameterRows<PictureChoice> depth_file_parameters(); // one row
 ParameterRows<ColourOptions> input_colour_parameters();
 ParameterRows<ColourOptions> output_colour_parameters();

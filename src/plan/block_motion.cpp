@@ -180,7 +180,7 @@ std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &se
     if (!there) return {};
     const auto back = Search(second, first, corner + there->whole, -expected).displacement();
     if (!back || (there->exact + back->exact).length() > PlanTuning::way_back) return {};
-    return (there->exact - back->exact) / 2.0;
+    return back->whole == -there->whole ? (there->exact - back->exact) / 2.0 : there->exact;
 }
 
 using Displacements = std::vector<std::optional<Imath::V2d>>;

@@ -194,6 +194,7 @@ LensValues lens_values(Keywords &keywords) {
 PictureChoice picture_choice(Keywords &keywords) {
     PictureChoice picture;
     keywords.parameters(choice_parameters(), picture);
+    keywords.parameters(kind_parameters(), picture);
     return picture;
 }
 

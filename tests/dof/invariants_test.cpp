@@ -127,7 +127,7 @@ TEST(Invariants, ThreadsDoNotMatter) {
 
 // Without R, G, B: only lens points, without spread lamps and sharpening.
 Ldi without_colour(Ldi ldi) {
-    ldi.channels = {{"X"}, {"Y"}, {"V"}, {"A"}};
+    ldi.channels = {{"X"}, {"W"}, {"V"}, {"A"}};
     return ldi;
 }
 

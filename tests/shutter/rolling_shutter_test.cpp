@@ -53,7 +53,7 @@ TEST(RollingShutter, WeightsAreIntegralsOfTheCurveOfEachRow) {
                     EXPECT_NEAR(box[std::size_t(m)][std::size_t(row)] / box_sum,
                                 box_until(end) - box_until(begin), 1e-9);
                     EXPECT_NEAR(triangle[std::size_t(m)][std::size_t(row)] / triangle_sum,
-                                triangle_until(end) - triangle_until(begin), 1e-9);
+                                (triangle_until(end) - triangle_until(begin)) / triangle_until(1), 1e-9);
                 }
             }
         }

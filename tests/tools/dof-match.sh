@@ -114,7 +114,7 @@ if [ "${2:-}" = --all ]; then
     fails_saying 1 'out of focus' "$match" ldi.exr sharp.exr --fit fstop --focus-distance 4
 fi
 oiiotool plate.exr --resize 48x27 -o small.exr
-fails_saying 1 'small.exr: its display window is 48 x 27' "$match" ldi.exr small.exr
+fails_saying 1 'small.exr: its display window is 48x27' "$match" ldi.exr small.exr
 [ ! -e x.json ] || fail "keys of a plate that cannot be matched"
 
 # Mistakes.

@@ -46,6 +46,7 @@ if [ "${2:-}" = --all ]; then
     agree --aperture "$source_dir/share/lenses/mirror.exr"
     agree --colorconfig "$source_dir/share/ocio/config.ocio" --colorspace sRGB
     agree --supersample 2 --pixel-filter gaussian --unpremultiplied
+    agree --data R,G,B --light R
     agree --display Rec.1886 --view-transform Raw
     oiiotool small/center.exr --ch R,G,B,A,Z --mulc 1,1,1,1,0.05 -o normalized.exr
     of=normalized.exr agree --depth normalized --depth-channel Z --near 0.1 --far 20

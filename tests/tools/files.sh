@@ -47,6 +47,15 @@ grep -q 'layer secret: light' stderr || fail "a layer of an unknown name: $(cat 
 exits 0 "$bin/ldi-warp" secrets.exr -o secrets.ldi.exr --data secret
 exits 0 "$bin/dof-gather" secrets.ldi.exr -o out.exr "${flat[@]}" -v
 grep -q 'layer secret: data' stderr || fail "--data: $(cat stderr)"
+exits 0 "$bin/ldi-cluster" secrets.ldi.exr -o cluster.exr --layers 1 --light secret
+exits 0 "$bin/dof-gather" cluster.exr -o out.exr "${flat[@]}" -v
+grep -q 'layer secret: light' stderr || fail "ldi-cluster --light: $(cat stderr)"
+exits 0 "$bin/ldi-cluster" secrets.exr -o cluster.exr --layers 1 --data secret
+exits 0 "$bin/dof-gather" cluster.exr -o out.exr "${flat[@]}" -v
+grep -q 'layer secret: data' stderr || fail "ldi-cluster --data: $(cat stderr)"
+exits 0 "$bin/ldi-warp" secrets.ldi.exr -o again.exr --merge keep --light secret
+exits 0 "$bin/dof-gather" again.exr -o out.exr "${flat[@]}" -v
+grep -q 'layer secret: light' stderr || fail "ldi-warp --light: $(cat stderr)"
 exits 0 "$bin/dof-gather" secrets.ldi.exr -o out.exr "${flat[@]}" -v --light secret
 grep -q 'layer secret: light' stderr || fail "--light: $(cat stderr)"
 fails_saying 1 'secrets.exr: has no layer or channel secrets \(--data\)' "$bin/dof-gather" secrets.exr -o x.exr "${flat[@]}" --data secrets

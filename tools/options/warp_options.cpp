@@ -67,6 +67,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_camera_options(app, options.camera);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
+    add_parameters(app, kind_parameters(), options.depth.picture);
     add_depth_files_option(app, options.depth_files);
     add_parameters(app, input_colour_parameters(), options.colour.emplace());
     add_history_option(app, options.history);

@@ -149,25 +149,35 @@ std::vector<std::string> stated_names(const Imf::Header &header, const char *att
     return names ? names->value() : Imf::StringVector();
 }
 
-// Throws Error if a name is that of no channel and no layer.
-void state_names(Imf::Header &header, const char *attribute, const char *parameter, const std::string &list,
-                 std::span<const Channel> channels, const std::string &path) {
-    Imf::StringVector names = stated_names(header, attribute);
+void set_names(Imf::Header &header, const char *attribute, const std::vector<std::string> &names) {
+    if (!names.empty())
+        set_attribute(header, attribute, Imf::StringVectorAttribute(names));
+    else if (header.find(attribute) != header.end())
+        header = without_attribute(header, attribute);
+}
+
+// Adds the names of a list to an attribute, and takes them from the other one. Throws Error if a name is that of no
+// channel and no layer.
+void state_names(Imf::Header &header, const char *attribute, const char *other, const char *parameter,
+                 const std::string &list, std::span<const Channel> channels, const std::string &path) {
+    std::vector<std::string> names = stated_names(header, attribute), others = stated_names(header, other);
     for (const std::string &name : words_between_commas(list)) {
         if (std::ranges::none_of(channels, [&](const Channel &channel) { return is_named(channel, name); }))
             throw Error(
                 fmt::format("{}: has no layer or channel {} (`{}`)", display_name(path), name, parameter));
-        names.push_back(name);
+        if (!is_among(names, name)) names.push_back(name);
+        std::erase(others, name);
     }
-    if (!names.empty()) set_attribute(header, attribute, Imf::StringVectorAttribute(names));
+    set_names(header, attribute, names);
+    set_names(header, other, others);
 }
 
 } // namespace
 
 Imf::Header with_stated_kinds(Imf::Header header, const PictureChoice &choice,
                               std::span<const Channel> channels, const std::string &path) {
-    state_names(header, data_attribute, "data", choice.data, channels, path);
-    state_names(header, light_attribute, "light", choice.light, channels, path);
+    state_names(header, data_attribute, light_attribute, "data", choice.data, channels, path);
+    state_names(header, light_attribute, data_attribute, "light", choice.light, channels, path);
     return header;
 }
 

@@ -248,7 +248,10 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         Ldi ldi = picture.whole();
         find_kinds_by(header, ldi.channels);
         std::vector<std::string> warnings = picture.warnings();
-        if (ldi.alpha() == npos && std::ranges::any_of(ldi.channels, is_light))
+        const auto covers = [](const Channel &channel) {
+            return colour_part(channel) == ColourPart::coverage;
+        };
+        if (std::ranges::none_of(ldi.channels, covers) && std::ranges::any_of(ldi.channels, is_light))
             warnings.emplace_back(
                 "has no coverage (A, or AR, AG and AB), so that every sample hides what is behind it");
         set_kept_names(header, picture.kept_names());

@@ -272,7 +272,8 @@ TEST(Fillers, LampsDoNotGoOn) {
 
 // Nothing is invented beyond the picture: the border of a picture that continues is the mean of the known part.
 TEST(Fillers, NothingIsInventedBeyondTheData) {
-    const Ldi ldi = make_ldi(windows_of_size(80, 40), grey, [](int x, int) {
+    const std::vector<Channel> no_lamps{{"V"}};
+    const Ldi ldi = make_ldi(windows_of_size(80, 40), no_lamps, [](int x, int) {
         return std::vector<Sample>{{depth_of(lens, 5), {x == 0 ? 100.0f : 1.0f}}};
     });
     const Image image = gather(ldi);
