@@ -144,7 +144,7 @@ for lens in '--fstop 0.2857 0.3 aperture.of.60.mm.radius,.not.63' '--focus-dista
     read -r option wrong right text <<<"$lens"
     exits 0 "$bin/dof-gather" ldi.exr -o wrong.exr "$option" "$wrong"
     exits 0 "$finish" wrong.exr $one $two -o x1.exr
-    [ "$(grep -Ec "^dof-finish: warning: fence/rays_[12].exr: another lens than that of the gathered picture: (an )?$text" stderr)" -eq 2 ] || fail "$option $wrong: $(cat stderr)"
+    [ "$(grep -Ec "^dof-finish: warning: fence/rays_[12].exr: another lens or camera than that of the gathered picture: (an )?$text" stderr)" -eq 2 ] || fail "$option $wrong: $(cat stderr)"
     exits 0 "$bin/dof-gather" ldi.exr -o right.exr "$option" "$right"
     exits 0 "$finish" right.exr $one $two -o x1.exr
     if grep 'another lens' stderr; then fail "$option $right is the same lens"; fi

@@ -44,6 +44,8 @@ oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames secret.R,se
 oiiotool one.exr secret.exr --chappend -d float -o secrets.exr
 exits 0 "$bin/dof-gather" secrets.exr -o out.exr "${flat[@]}" -v
 grep -q 'layer secret: light' stderr || fail "a layer of an unknown name: $(cat stderr)"
+exits 0 "$bin/dof-gather" secrets.exr -o out.exr "${flat[@]}" -v --data secret
+grep -q 'layer secret: data' stderr || fail "--data: $(cat stderr)"
 exits 0 "$bin/ldi-warp" secrets.exr -o secrets.ldi.exr --data secret
 exits 0 "$bin/dof-gather" secrets.ldi.exr -o out.exr "${flat[@]}" -v
 grep -q 'layer secret: data' stderr || fail "--data: $(cat stderr)"

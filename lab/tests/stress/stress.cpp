@@ -34,7 +34,7 @@ constexpr double most_unsure = 0.05 / 16;
 } // namespace
 
 Ldi grey_ldi(const Windows &windows, const PixelAt &pixel) {
-    return ldi_of_parts(windows, {{"Y"}, {"A"}}, {1}, pixel);
+    return ldi_of_parts(windows, {{"V"}, {"A"}}, {1}, pixel);
 }
 
 Ldi grey_ldi(int width, int height, const PixelAt &pixel) {
