@@ -289,7 +289,9 @@ SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
         lost.insert(lost.end(), row.lost.begin(), row.lost.end());
     }
     count += settle_strands(pixels, std::move(lost), z);
-    const bool filtered = double(mixed) > least_mixed * double(parted);
+    const double usual =
+        least_mixed * double(parted); // at most, and more by chance: three standard deviations
+    const bool filtered = double(mixed) > usual + 3 * std::sqrt(usual);
     for (const Row &row : rows)
         if (filtered) replace(row.opaque);
     return {count, filtered};

@@ -76,6 +76,10 @@ press other.blend still refuse-render "still/center.exr is a view of small.blend
 grep -q "Warning: $PWD/still/center.exr is a view of small.blend" said || fail "another file: $(tail -n 3 said)"
 press moved/other.blend still focus 3 take
 if grep -q "a view of small" said; then fail "a file that has moved: $(grep 'a view of' said)"; fi
+# A copy has views of its own in a folder with the name of the file.
+press small.blend still set folder="''" refuse-render 'no folder is chosen for the views'
+press other.blend still set folder="'//by/{blend_name}/'" render
+[ -e by/other/center.exr ] || fail "{blend_name}: $(find by)"
 press small.blend still follow 2 96
 by_hand still "" --focus-distance 2
 same still/picture.exr "followed"

@@ -24,7 +24,9 @@ SPARSELENS_Looks = type("SPARSELENS_Looks", (bpy.types.PropertyGroup,),
 class SPARSELENS_Settings(bpy.types.PropertyGroup):
     folder: bpy.props.StringProperty(
         name="Folder", description="Where the views go, and what is made of "
-        "them", subtype="DIR_PATH", default="//views/")
+        "them; {blend_name} is the name of the file, so that a copy of it has "
+        "views of its own", subtype="DIR_PATH",
+        default="//views/{blend_name}/")
     views: bpy.props.IntProperty(
         name="Rim Views", description="Views from the rim of the lens",
         default=4, min=0, max=64)

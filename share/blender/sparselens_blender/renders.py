@@ -35,12 +35,17 @@ def warn(text):
 
 def folder_of(path):
     """The full name of a folder; // stands for the folder of the .blend
-    file."""
+    file, {blend_name} for its name without the ending."""
+    if not path.strip():
+        raise ValueError("no folder is chosen for the views: choose one, such "
+                         "as //views/")
     if path.startswith("//") and not bpy.data.filepath:
         raise ValueError("'%s' is a folder beside the .blend file, which is "
                          "not saved yet: save it, or choose another folder"
                          % path)
-    return os.path.abspath(bpy.path.abspath(path))
+    name = os.path.splitext(os.path.basename(bpy.data.filepath))[0]
+    return os.path.abspath(bpy.path.abspath(
+        path.replace("{blend_name}", name or "unsaved")))
 
 
 def used_layers(scene):

@@ -77,8 +77,10 @@ namespace {
 
 constexpr std::size_t enough = 200;    // pixels that tell
 constexpr double clearly = 0.7;        // times the contradiction
+constexpr double few = 9;              // depths that contradict by chance: three standard deviations
+constexpr double few_left = 0.4;       // of the depths that contradicted
 constexpr double at_least = 0.01;      // a smaller contradiction is rounding or noise
-constexpr double least_motion = 1;     // pixels between two positions; less cannot be seen
+constexpr double least_motion = 1;     // pixels; a view that moves less looks the same
 constexpr double usual_motion = 16;    // of a view from the rim, pixels
 constexpr double fine_motion = 0.25;   // pixels
 constexpr double worth_turning = 0.05; // a smaller contradiction comes from noise
@@ -94,10 +96,13 @@ bool depth_prefers(const PoseVerdict &a, const PoseVerdict &b) {
     return off_b - off_a > 3 * std::sqrt(off_a + off_b);
 }
 
-// Judges by colours and depths together, or by depths alone.
+// Judges by colours, or by depths. Depths that contradict must become few: where things are thin, colours alone may
+// agree better by chance.
 bool is_clear(const PoseVerdict &better, const PoseVerdict &stated) {
+    const auto left = double(better.off_depth), before = double(stated.off_depth);
+    if (left > few && left > few_left * before) return false;
     return better.contradiction < std::min(clearly * stated.contradiction, stated.contradiction - at_least) ||
-           (double(better.off_depth) < clearly * double(stated.off_depth) && depth_prefers(better, stated));
+           (left < few_left * before && depth_prefers(better, stated));
 }
 
 // The best of the positions tried so far: the least contradicted by depths, and among equals the least contradicted
