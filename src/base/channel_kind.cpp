@@ -58,48 +58,25 @@ std::vector<std::string> words_of(std::string_view name) {
     return words;
 }
 
-// Whether a layer, or a channel without one, has a name of data.
+// Whether a word is one of a list between blanks.
+bool is_in(std::string_view list, const std::string &word) {
+    return list.find(' ' + word + ' ') != std::string_view::npos;
+}
+
+// Whether a layer, or a channel without one, has a name of data: the whole name, one of its words, or P or N and the
+// space in which they are.
 bool names_data(const std::string &name) {
-    static constexpr std::array whole{"n",
-                                      "ng",
-                                      "ns",
-                                      "nn",
-                                      "p",
-                                      "pref",
-                                      "rest",
-                                      "point",
-                                      "uv",
-                                      "uvs",
-                                      "uvw",
-                                      "st",
-                                      "mv",
-                                      "mv2d",
-                                      "mvec",
-                                      "depth",
-                                      "z",
-                                      "pz",
-                                      "zdepth",
-                                      "pworld",
-                                      "pcam",
-                                      "pobj",
-                                      "ncam",
-                                      "nobj",
-                                      "dpdu",
-                                      "dpdv",
-                                      "dudv",
-                                      "hitp",
-                                      "denoising depth",
-                                      "nworld"};
-    static constexpr std::array parts{"normal",  "normals",  "position",      "positions",   "velocity",
-                                      "motion",  "vector",   "vectors",       "motionvec",   "motionvector",
-                                      "tangent", "tangents", "motionvectors", "worldnormal", "worldposition"};
-    static constexpr std::array spaces{"world", "camera", "cam", "object", "obj", "ref", "eye", "local"};
-    const std::string last = last_component(name);
-    if (is_among(whole, last)) return true;
+    static constexpr std::string_view whole =
+        " n ng ns nn p pref rest point uv uvs uvw st mv mv2d mvec depth z pz "
+        "zdepth pworld pcam pobj nworld ncam nobj dpdu dpdv dudv hitp ";
+    static constexpr std::string_view parts = " normal normals position positions velocity motion vector "
+                                              "vectors motionvec motionvector motionvectors "
+                                              "tangent tangents worldnormal worldposition ";
+    static constexpr std::string_view spaces = " world camera cam object obj ref eye local ";
     const std::vector<std::string> words = words_of(split(name).last);
-    if (std::ranges::any_of(words, [](const std::string &word) { return is_among(parts, word); }))
-        return true;
-    return words.size() == 2 && (words[0] == "p" || words[0] == "n") && is_among(spaces, words[1]);
+    if (is_in(whole, last_component(name)) || last_component(name) == "denoising depth") return true;
+    if (std::ranges::any_of(words, [](const std::string &word) { return is_in(parts, word); })) return true;
+    return words.size() == 2 && (words[0] == "p" || words[0] == "n") && is_in(spaces, words[1]);
 }
 
 bool is_data(const std::string &name, const Layers &with_x) {
@@ -228,7 +205,7 @@ std::string colour_name(std::string_view name) {
 
 namespace {
 
-// AR for RA, if GA and BA stand in the same layer: so do some renderers name the coverage of each colour. Else empty.
+// AR for RA, if GA and BA stand in the same layer, as some renderers name the coverage of each colour; else empty.
 std::string coverage_name(const std::string &name, const std::unordered_set<std::string> &all) {
     const auto [layer, last] = split(name);
     const std::string prefix = layer.empty() ? "" : layer + ".";

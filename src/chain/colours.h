@@ -56,8 +56,9 @@ void to_exr_space(const ColourOptions &options, const std::string &path, Image &
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
 // files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities; so are files of
 // linear light such as .hdr. PNG, JPEG, TIFF and the like are written in `output_colorspace`, or else through `display`
-// and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an
-// OpenEXR file, and for a compression or tiles with any other. Returns what write_flat_exr returns.
+// and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws
+// UsageError for a display with an OpenEXR file, and for a compression or tiles with any other. Returns what
+// write_flat_exr returns.
 std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression = {}, int tiles = 0);

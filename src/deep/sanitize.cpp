@@ -101,7 +101,7 @@ private:
     void repair_coverage(std::size_t channel);
     void repair_depths();
     void repair_colours(std::size_t channel);
-    // What neither covers nor shines is nowhere. Light without coverage, such as fire, is where the renderer says.
+    // A sample without coverage and light is moved to infinity. Light without coverage, such as fire, keeps its depth.
     void hide_uncovered() {
         if (alpha_ == npos) return;
         const auto shines = [&](std::size_t i) {

@@ -77,10 +77,11 @@ namespace {
 
 constexpr std::size_t enough = 200;    // pixels that tell
 constexpr double clearly = 0.7;        // times the contradiction
-constexpr double few = 9;              // depths that contradict by chance: three standard deviations
+constexpr std::size_t few = 9;         // depths that contradict by chance: three standard deviations
 constexpr double few_left = 0.4;       // of the depths that contradicted
 constexpr double at_least = 0.01;      // a smaller contradiction is rounding or noise
 constexpr double least_motion = 1;     // pixels; a view that moves less looks the same
+constexpr double least_turned = 3;     // pixels; less may be aliases of thin things
 constexpr double usual_motion = 16;    // of a view from the rim, pixels
 constexpr double fine_motion = 0.25;   // pixels
 constexpr double worth_turning = 0.05; // a smaller contradiction comes from noise
@@ -96,13 +97,15 @@ bool depth_prefers(const PoseVerdict &a, const PoseVerdict &b) {
     return off_b - off_a > 3 * std::sqrt(off_a + off_b);
 }
 
-// Judges by colours, or by depths. Depths that contradict must become few: where things are thin, colours alone may
-// agree better by chance.
+// Judges by colours and depths together, or by depths alone.
 bool is_clear(const PoseVerdict &better, const PoseVerdict &stated) {
-    const auto left = double(better.off_depth), before = double(stated.off_depth);
-    if (left > few && left > few_left * before) return false;
     return better.contradiction < std::min(clearly * stated.contradiction, stated.contradiction - at_least) ||
-           (left < few_left * before && depth_prefers(better, stated));
+           (double(better.off_depth) < clearly * double(stated.off_depth) && depth_prefers(better, stated));
+}
+
+// Whether few depths contradict, or far fewer than before: where things are thin, colours alone may agree by chance.
+bool depths_agree(const PoseVerdict &better, const PoseVerdict &stated) {
+    return better.off_depth <= few || double(better.off_depth) <= few_left * double(stated.off_depth);
 }
 
 // The best of the positions tried so far: the least contradicted by depths, and among equals the least contradicted
@@ -180,8 +183,9 @@ std::optional<Found> find_position(const PoseEvidence &evidence, const PackedVie
     else
         search_around_centre(reach > 0 ? reach : usual_motion / motion, search);
     const double moved = (search.best() - view.position).length() * motion;
-    if (!is_clear(search.there(), search.stated()) || moved < least_motion) return {};
-    return Found{search.best(), search.there(), search.stated()};
+    const Found found{search.best(), search.there(), search.stated()};
+    if (!is_clear(found.there, found.stated) || !depths_agree(found.there, found.stated)) return {};
+    return moved < least_motion ? std::nullopt : std::optional(found);
 }
 
 // Whether the position only moves the view nearer to the centre or farther out. What mirrors and glass show moves in
@@ -230,7 +234,7 @@ std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &
             for (const double way : {step, -step}) attempt(before + axis * way, 1);
         if (best == before) step /= 2;
     }
-    if (best.length() < least_motion || !is_clear(least, stated) || !depth_prefers(least, stated)) return {};
+    if (best.length() < least_turned || !is_clear(least, stated) || !depth_prefers(least, stated)) return {};
     if (const auto moved = find_position(evidence, view, reach);
         moved && (moved->there.contradiction <= least.contradiction || depth_prefers(moved->there, least)))
         return {};
