@@ -209,8 +209,8 @@ Process::Process(const ProcessOptions &options, const ToolContext &tool) {
 
 // The limit outlives the object: oneTBB starts threads when a limit ends, and the process does, too.
 Process::~Process() {
-    [[maybe_unused]] static const ThreadLimit *kept = nullptr; // no leak, as it can be reached
-    kept = threads_.release();
+    static auto &kept = *new std::vector<const ThreadLimit *>; // no leak, as it can be reached
+    kept.push_back(threads_.release());
 }
 
 int exit_code_of(const std::string &prefix, const std::function<void()> &work) {
