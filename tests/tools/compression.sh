@@ -59,8 +59,8 @@ done
 fails_saying 2 "--compression: flat files have one of none, rle, .*, dwab, .*not 'lzw'" "$bin/dof-gather" plain.exr -o x.exr --compression lzw
 fails_saying 2 "--compression applies to EXR, not to x.png" "$bin/dof-gather" plain.exr -o x.png "${lens[@]}" --compression zip
 
-# DWA changes what is named as a colour is, also positions; that is said. Ids are refused, and where a file has ids that were
-# compressed so, that is said.
+# DWA changes channels that are named like colours, such as P.Y of a position: a warning says so. A warning also names ids
+# that an input has in such a compression, or in halves.
 oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames P.X,P.Y,P.Z -d float -o positions.exr
 oiiotool plain.exr positions.exr --chappend -d float -o data.exr
 exits 0 "$bin/dof-gather" data.exr -o out.exr "${lens[@]}" --compression dwaa

@@ -39,7 +39,7 @@ fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --le
 printf 'P6 2 2 255 abcdefghijkl' >view.ppm
 fails_saying 1 'view.ppm: not an EXR file' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
 
-# What a channel holds is told by its name, or by --data and --light, also to the next tool.
+# The name of a channel says what it holds. --data and --light overrule the name, and the output keeps what they said.
 oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames secret.R,secret.G,secret.B -d float -o secret.exr
 oiiotool one.exr secret.exr --chappend -d float -o secrets.exr
 exits 0 "$bin/dof-gather" secrets.exr -o out.exr "${flat[@]}" -v

@@ -1,5 +1,5 @@
-# What the system does not allow: threads, large files, and outputs that are read-only. Each ends with a picture, or with
-# one line and exit code 1, and nothing is left behind or replaced.
+# A system that allows no threads, no large files, or no writing to an output. The tool makes the picture, or prints one
+# line and exits with 1. It leaves no unfinished file, and does not replace a read-only one.
 #   bash limits.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 

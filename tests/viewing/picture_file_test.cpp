@@ -72,7 +72,7 @@ TEST_F(PictureFileWords, FilesAreRelativeToTheFile) {
               (std::vector<std::string>{path("a.exr"), path("b.exr"), "/lenses/petzval.json"}));
 }
 
-// What is written again changes the picture, so it has to be known.
+// The picture is made again if one of these files changes.
 TEST_F(PictureFileWords, FilesThatFilesNameAreFound) {
     for (const char *name : {"m_0.exr", "m_1.exr", "round.exr"}) write(name, "");
     write("mine.json", R"({"aperture": "round.exr"})");

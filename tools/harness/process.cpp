@@ -207,7 +207,7 @@ Process::Process(const ProcessOptions &options, const ToolContext &tool) {
     tool.say(fmt::format("threads: {}", threads));
 }
 
-// The limit outlives the object: oneTBB starts threads when a limit ends, and the process does, too.
+// The limit is never destroyed: oneTBB would start threads then, even where the system allows none.
 Process::~Process() {
     static auto &kept = *new std::vector<const ThreadLimit *>; // no leak, as it can be reached
     kept.push_back(threads_.release());
