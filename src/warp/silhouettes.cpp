@@ -256,8 +256,8 @@ std::optional<Mixture> Separation::find(int x, int y) const {
     if (!is_opaque(own_sample(x, y))) return mixture_of(x, y);
     const bool strands = among_strands(samples_, x, y);
     if (strands || is_of_crossed_lamp(x, y))
-        if (const auto light =
-                light_between_strands(samples_, x, y, jump_, strands ? WarpTuning::strand_apart_px : jump_))
+        if (const auto light = light_between_strands(samples_, x, y, jump_,
+                                                     strands ? WarpTuning::strand_apart_px : jump_, others_))
             return strands || light->far_depth != depth_of(own_sample(x, y)) ? light : of_lamp(x, y, *light);
     return strands ? strands_before(samples_, x, y, others_) : mixture_of(x, y);
 }

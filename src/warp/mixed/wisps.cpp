@@ -183,7 +183,7 @@ bool among_strands(const SamplesAround &samples, int x, int y) {
 }
 
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
-                                             double apart) {
+                                             double apart, const OtherViews *others) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
     const bool is_strand = own_depth > nearest - apart;
@@ -194,6 +194,9 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     if (!stands_out(c, f)) return {};
     const auto lamp = lamp_behind(samples, x, y, near_depth, apart, c / LampTuning::stands_out);
     if (!lamp) return {};
+    if (is_strand && others)
+        if (const auto seen = others->brightest_at({x, y}, samples.depth_of(*lamp), near_depth - apart))
+            if (stands_out(c, *seen)) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
     // A lamp's own pixel stays at its depth; a pixel of what is beside the lamp takes the lamp's depth.
     if (!is_strand) {
@@ -225,39 +228,61 @@ OtherViews::OtherViews(std::span<const ViewSamples> views, std::span<const ViewM
     : views_(views), mappings_(mappings), own_(own), scale_(scale), rgb_(find_rgb(views[own].channels)),
       alpha_(views[own].alpha()) {}
 
-// The pixel of a view that shows the surface alone, if it does.
-std::optional<std::size_t> OtherViews::pixel_of(std::size_t view, const Imath::V2d &in_centre, double depth,
-                                                double apart) const {
-    const ViewSamples &samples = views_[view];
-    const Imath::Box2i &data = samples.windows.data;
-    const Imath::V2d seen = mappings_[view].in_view(in_centre, depth / scale_);
-    if (!(seen.x >= data.min.x + 1 && seen.x < data.max.x && seen.y >= data.min.y + 1 && seen.y < data.max.y))
-        return {};
-    const std::size_t pixel = samples.windows.index(int(std::floor(seen.x)), int(std::floor(seen.y))),
-                      row = std::size_t(samples.windows.width());
-    const auto depth_at = [&](std::size_t i) { return perceptive_depth(scale_, double(samples.z(i))); };
-    if (samples.pixel(pixel).empty() || !(std::abs(depth_at(pixel) - depth) < apart)) return {};
-    for (const std::size_t line : {pixel - row, pixel, pixel + row})
-        for (const std::size_t i : {line - 1, line, line + 1})
-            if (!(samples.pixel(i).empty() || depth_at(i) < depth + apart)) return {};
-    return is_opaque(alpha_at(samples, alpha_, pixel)) ? std::optional(pixel) : std::nullopt;
+Imath::V3d OtherViews::colour_of(const ViewSamples &samples, std::size_t pixel) const {
+    const auto value = [&](std::size_t k) { return double(samples.value(rgb_[k], pixel)); };
+    return {value(0), value(1), value(2)};
 }
 
-std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, double depth,
-                                                    double apart) const {
+// Calls visit(view, pixel) for the pixels of the other flat views, not on their border, that look at that depth along
+// the ray of the own view's pixel.
+template <typename Visit>
+void OtherViews::for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const {
     const Imath::V2i corner = views_[own_].windows.data.min;
     const Imath::V2d middle(corner.x + pixel.x + 0.5, corner.y + pixel.y + 0.5);
     const Imath::V2d in_centre =
         mappings_[own_].at_infinity(middle) + depth / scale_ * mappings_[own_].parallax(middle);
-    Imath::V3d sum(0, 0, 0);
-    int count = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
         if (v == own_ || views_[v].deep()) continue;
-        const auto found = pixel_of(v, in_centre, depth, apart);
-        if (!found) continue;
-        for (unsigned k = 0; k < 3; ++k) sum[int(k)] += double(views_[v].value(rgb_[k], *found));
-        ++count;
+        const Imath::Box2i &data = views_[v].windows.data;
+        const Imath::V2d seen = mappings_[v].in_view(in_centre, depth / scale_);
+        if (seen.x >= data.min.x + 1 && seen.x < data.max.x && seen.y >= data.min.y + 1 &&
+            seen.y < data.max.y)
+            visit(views_[v], views_[v].windows.index(int(std::floor(seen.x)), int(std::floor(seen.y))));
     }
+}
+
+OtherViews::Around OtherViews::around(const ViewSamples &samples, std::size_t pixel) const {
+    const std::size_t row = std::size_t(samples.windows.width());
+    Around all;
+    for (const std::size_t line : {pixel - row, pixel, pixel + row})
+        for (const std::size_t i : {line - 1, line, line + 1}) {
+            if (samples.pixel(i).empty()) continue;
+            all.nearest = std::max(all.nearest, perceptive_depth(scale_, double(samples.z(i))));
+            all.brightest = std::max(all.brightest, colour_of(samples, i).length());
+        }
+    return all;
+}
+
+std::optional<double> OtherViews::brightest_at(const Imath::V2i &pixel, double depth, double nearest) const {
+    std::optional<double> brightest;
+    for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
+        const Around all = around(samples, seen);
+        if (all.nearest < nearest) brightest = std::max(brightest.value_or(0), all.brightest);
+    });
+    return brightest;
+}
+
+std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, double depth,
+                                                    double apart) const {
+    Imath::V3d sum(0, 0, 0);
+    int count = 0;
+    for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
+        if (samples.pixel(seen).empty() || !is_opaque(alpha_at(samples, alpha_, seen))) return;
+        if (!(std::abs(perceptive_depth(scale_, double(samples.z(seen))) - depth) < apart)) return;
+        if (!(around(samples, seen).nearest < depth + apart)) return;
+        sum += colour_of(samples, seen);
+        ++count;
+    });
     if (count == 0) return {};
     return sum / count;
 }

@@ -7,7 +7,7 @@
 //
 //   - A pixel that is four times as bright as the strands holds light from between them. The light belongs to the
 //     brightest pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single
-//     strand crosses.
+//     strand crosses. If other views see no such light there, the strand itself is lit.
 //   - Else B is what other views show behind the strands, or a farther pixel around if all of them are mixed there, too.
 //     F is the strand with the smallest share, among those around that explain the colour with B, because most pixels of
 //     strands are mixed. The median over all B decides.
@@ -43,9 +43,18 @@ public:
     // that is nearer by `apart` or more in that pixel or beside it. Returns nothing if there is no such view.
     std::optional<Imath::V3d> colour_behind(const Imath::V2i &pixel, double depth, double apart) const;
 
+    // Returns the brightness of the brightest pixel where the other flat views look at that depth, or beside it.
+    // A view with something as near as `nearest` there does not count; returns nothing if none counts.
+    std::optional<double> brightest_at(const Imath::V2i &pixel, double depth, double nearest) const;
+
 private:
-    std::optional<std::size_t> pixel_of(std::size_t view, const Imath::V2d &in_centre, double depth,
-                                        double apart) const;
+    template <typename Visit>
+    void for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const;
+    Imath::V3d colour_of(const ViewSamples &samples, std::size_t pixel) const;
+    struct Around { // of three by three pixels
+        double nearest = 0, brightest = 0;
+    };
+    Around around(const ViewSamples &samples, std::size_t pixel) const;
 
     std::span<const ViewSamples> views_;
     std::span<const ViewMapping> mappings_;
@@ -118,9 +127,9 @@ struct Mixture {
 bool among_strands(const SamplesAround &samples, int x, int y);
 
 // The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Perceptive: `jump`
-// parts the lamp from what is behind it, `apart` the strands from both.
+// parts the lamp from what is behind it, `apart` the strands from both. `others` may be null.
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
-                                             double apart);
+                                             double apart, const OtherViews *others);
 
 // The share of strands in a pixel among them, if the pixels around or other views explain its colour.
 std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y, const OtherViews *others);

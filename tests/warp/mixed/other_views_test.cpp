@@ -64,5 +64,42 @@ TEST(OtherViews, SayNothingWhereTheSurfaceIsMixedHiddenOrOutside) {
     EXPECT_FALSE(Scene({0, 0.2}, 0.5f).behind(0, 17)); // not opaque
 }
 
+// A dark card at depth 2 before a dark wall at depth 10. In the centre view, the card's last pixel and the wall's first
+// one are bright: by a lit edge of the card, or by a lamp on the wall.
+struct BrightEdge {
+    std::vector<ViewSamples> samples;
+    std::vector<ViewMapping> mappings;
+    std::vector<View> views;
+
+    explicit BrightEdge(bool lamp) {
+        for (const double camera : {0.0, 0.2})
+            views.push_back(make_view(windows_of_size(width, 9), {camera, 0}, [&](int x, int) {
+                const double card = x + 0.5 + focal_px * camera / 2, wall = x + 0.5 + focal_px * camera / 10;
+                if (card > 15 && card < 20)
+                    return ViewPixel{.z = 2, .r = camera == 0 && card > 19 ? 3.0f : 0.05f};
+                const bool bright = (lamp || camera == 0) && wall > 20 && wall < 21;
+                return ViewPixel{.z = 10, .r = bright ? 3.0f : 0.3f};
+            }));
+        for (const View &view : views) {
+            samples.emplace_back(view, view.image.channels);
+            mappings.emplace_back(view.position, focal_px, view.image.windows);
+        }
+    }
+    // Of the card's last pixel.
+    std::optional<Mixture> light(bool by_both) const {
+        const OtherViews others(samples, mappings, 0, scale);
+        return light_between_strands(SamplesAround(samples[0], scale), 19, 4, 0.5, 1,
+                                     by_both ? &others : nullptr);
+    }
+};
+
+TEST(OtherViews, TellALitEdgeFromALampBehindIt) {
+    EXPECT_FALSE(BrightEdge(false).light(true));
+    for (const auto &light : {BrightEdge(true).light(true), BrightEdge(false).light(false)}) {
+        ASSERT_TRUE(light);
+        EXPECT_NEAR(light->far_depth, 2, 1e-5);
+    }
+}
+
 } // namespace
 } // namespace sparselens
