@@ -63,18 +63,23 @@ bool is_in(std::string_view list, const std::string &word) {
     return list.find(' ' + word + ' ') != std::string_view::npos;
 }
 
-// Whether a layer, or a channel without one, has a name of data: the whole name, one of its words, or P or N and the
-// space in which they are.
+// Whether a layer, or a channel without one, has a name of data: the whole name, also after "AOV", one of its words, or
+// P or N and the space in which they are.
 bool names_data(const std::string &name) {
     static constexpr std::string_view whole =
         " n ng ns nn p pref rest point uv uvs uvw st mv mv2d mvec depth z pz "
-        "zdepth pworld pcam pobj nworld ncam nobj dpdu dpdv dudv hitp ";
-    static constexpr std::string_view parts = " normal normals position positions velocity motion vector "
+        "zdepth wpp pworld pcam pobj nworld ncam nobj dpdu dpdv dudv hitp ";
+    static constexpr std::string_view parts = " normal normals pos position positions velocity motion vector "
                                               "vectors motionvec motionvector motionvectors "
                                               "tangent tangents worldnormal worldposition ";
     static constexpr std::string_view spaces = " world camera cam object obj ref eye local ";
-    const std::vector<std::string> words = words_of(split(name).last);
+    std::vector<std::string> words = words_of(split(name).last);
+    if (words.size() > 1 && words[0] == "aov") {
+        words.erase(words.begin());
+        if (words.size() == 1 && is_in(whole, words[0])) return true;
+    }
     if (is_in(whole, last_component(name)) || last_component(name) == "denoising depth") return true;
+    if (!words.empty() && words.back() == "uv") return true;
     if (std::ranges::any_of(words, [](const std::string &word) { return is_in(parts, word); })) return true;
     return words.size() == 2 && (words[0] == "p" || words[0] == "n") && is_in(spaces, words[1]);
 }

@@ -56,11 +56,16 @@ TEST(ChannelKind, PositionsNormalsAndMotionAreData) {
                              "Normal (geometric).R",
                              "hitP.R",
                              "dPdu.R",
-                             "MotionVectorsAndDepth.R"})
+                             "MotionVectorsAndDepth.R",
+                             "WPP.R",
+                             "ObjectPos.R",
+                             "TextureUV.R",
+                             "AOV_P.R",
+                             "aov_N_cam.R"})
         EXPECT_EQ(kind_of(name), ChannelKind::data) << name;
-    for (const char *name :
-         {"point_lights.R", "abnormal.R", "rest_of_lights.R", "uv_lamps.R", "normalised.R", "demotion.R",
-          "diffuse_depth1.R", "p.diffuse.R", "North.R", "n_lights.R", "proposition.R"})
+    for (const char *name : {"point_lights.R", "abnormal.R", "rest_of_lights.R", "uv_lamps.R", "normalised.R",
+                             "demotion.R", "diffuse_depth1.R", "p.diffuse.R", "North.R", "n_lights.R",
+                             "proposition.R", "UV_light.R", "aov_diffuse.R"})
         EXPECT_EQ(kind_of(name), ChannelKind::light) << name;
     EXPECT_FALSE(is_light(found({{"N.R"}})[0]));
     EXPECT_FALSE(holds_ids(found({{"N.R"}})[0]));

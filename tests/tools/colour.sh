@@ -133,7 +133,7 @@ oiiotool --info out.tif | grep -q uint16 || fail "TIFF has no 16 bits"
 oiiotool --pattern constant:color=0.2,0.1,0.05,0.25,3 16x16 5 --chnames R,G,B,A,Z -d float -o element.exr
 oiiotool --pattern constant:color=0.2,0.1,0.05 16x16 3 -d float -o opaque.exr
 oiiotool --pattern constant:color=0.2,0.1,0.05,1,3 16x16 5 --chnames R,G,B,A,Z -d float -o full.exr
-for ending in jpg hdr; do
+for ending in jpg hdr webp; do
     exits 0 "$bin/dof-gather" element.exr -o element.$ending "${flat[@]}"
     exits 0 "$bin/dof-gather" full.exr -o full.$ending "${flat[@]}"
     cmp element.$ending full.$ending || fail "an element over black as $ending"

@@ -65,6 +65,9 @@ oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames P.X,P.Y,P.Z
 oiiotool plain.exr positions.exr --chappend -d float -o data.exr
 exits 0 "$bin/dof-gather" data.exr -o out.exr "${lens[@]}" --compression dwaa
 grep -q 'warning: out.exr: its compression .*changes the data of channel P.Y: give --compression zip' stderr || fail "data by dwaa: $(cat stderr)"
+oiiotool data.exr -d half -o halves.exr
+exits 0 "$bin/dof-gather" halves.exr -o out.exr "${lens[@]}" --compression b44
+grep -q 'changes the data of channel P.[XYZ]: give --compression zip' stderr || fail "data by b44: $(cat stderr)"
 exits 0 "$bin/dof-gather" data.exr -o out.exr "${lens[@]}" --compression piz
 [ ! -s stderr ] || fail "data by piz: $(cat stderr)"
 oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 4 --chnames Crypto00.R,Crypto00.G,Crypto00.B,Crypto00.A -d float -o ids.exr

@@ -11,7 +11,9 @@ namespace {
 OiioModule::Support support(const char *extension) {
     const auto file = OIIO::ImageOutput::create(extension);
     if (!file) return OiioModule::Support::none;
-    return file->supports("alpha") ? OiioModule::Support::alpha : OiioModule::Support::opaque;
+    // The WebP writer divides colours by alpha once more, whatever the attribute below says.
+    return file->supports("alpha") && extension != std::string("webp") ? OiioModule::Support::alpha
+                                                                       : OiioModule::Support::opaque;
 }
 
 bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {

@@ -49,9 +49,11 @@ std::string names_of(const Chosen &chosen, const std::string &separator = ", ") 
 }
 
 // DWA changes the channels that are named as colours are (OpenEXR, ImfDwaCompressor.h, its rules for channels), PXR24
-// all floats of 32 bits.
+// all floats of 32 bits, B44 all halves.
 bool changes(const NamedCompression &method, const Channel &channel) {
     static constexpr std::array colours{"r", "red", "g", "grn", "green", "b", "blu", "blue", "y", "ry", "by"};
+    if (method.value == Imf::B44_COMPRESSION || method.value == Imf::B44A_COMPRESSION)
+        return channel.type == PixelType::half;
     if (method.exact || channel.type == PixelType::uint32) return false;
     const std::string last = lower_case(channel.name.substr(channel.name.rfind('.') + 1));
     return method.value == Imf::PXR24_COMPRESSION ? channel.type == PixelType::float32
