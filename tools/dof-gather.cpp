@@ -1,4 +1,5 @@
 // dof-gather: computes the picture that a lens takes from a layered depth image.
+#include "base/kept.h"
 #include "chain/devices.h"
 #include "chain/notices.h"
 #include "chain/take_moments.h"
@@ -57,34 +58,24 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache,
     };
 }
 
-// Shares the LDI between frames of one file, so that a focus pull over one file reads it once.
-class Caches {
-public:
-    std::shared_ptr<LdiCache> of(const std::string &input) {
-        const std::lock_guard lock(guard_);
-        if (!last_ || input_ != input) last_ = std::make_shared<LdiCache>();
-        input_ = input;
-        return last_;
-    }
-
-private:
-    std::mutex guard_; // for the members below
-    std::string input_;
-    std::shared_ptr<LdiCache> last_;
-};
-
 } // namespace
 
 int main(int argc, char **argv) {
-    Caches caches;
+    // Frames of one file share its LDI, so that a focus pull over one file reads it once.
+    Kept<std::string, std::shared_ptr<LdiCache>> caches(1);
+    std::mutex guard; // for `caches`
+    const auto cache_of = [&](const std::string &input) {
+        const std::lock_guard lock(guard);
+        return caches.get(input, [](const std::string &) { return std::make_shared<LdiCache>(); });
+    };
     GatherDevice device;
     return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();
                           add_gather_options(app, *options);
                           return Job{.work =
-                                         [&caches, &device, options](const ToolContext &tool) {
-                                             run(*options, tool, *caches.of(options->input), device);
+                                         [&cache_of, &device, options](const ToolContext &tool) {
+                                             run(*options, tool, *cache_of(options->input), device);
                                          },
                                      .keeps =
                                          [options] {

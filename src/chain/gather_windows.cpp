@@ -221,29 +221,28 @@ void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
 
 } // namespace
 
-// An LDI whose samples were used up does not even have empty pixels.
-bool LdiCache::holds(const Key &key) const {
-    return last_ && key_ == key && !last_->reduced() && !last_->ldi.begin.empty();
-}
-
 OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose) {
-    const auto &[path, recolor, channels, lens, depth, colour] = request;
-    const Key key(path, recolor, channels, depth, lens.focal_length_mm, lens.sensor_width_mm, colour.config,
-                  colour.input_space);
-    read_now_ = !holds(key);
-    if (read_now_) {
-        last_.reset(); // because two at a time may not fit in memory
+    const std::string &path = request.input, &recolor = request.recolor;
+    const LensValues &lens = request.lens;
+    const ColourOptions &colour = request.colour;
+    // An LDI whose samples were used up does not even have empty pixels.
+    kept_.drop_if([](const Key &, const OpenedLdi &in) { return in.reduced() || in.ldi.begin.empty(); });
+    read_now_ = false;
+    const auto read = [&](const Key &) {
+        read_now_ = true;
         tell({NoticeKind::reading, path});
-        OpenedLdi opened = open_ldi(path, {lens, depth}, choose);
+        OpenedLdi opened = open_ldi(path, {lens, request.depth}, choose);
         tell_samples(tell, opened);
-        recolor_by(recolor, depth.picture, colour, opened, tell);
+        recolor_by(recolor, request.depth.picture, colour, opened, tell);
         if (recolor.empty()) opened.header = to_linear(tell, colour, path, opened.header, opened.ldi);
         check_flat_picture(tell, opened);
-        channels_left_out_ = keep_and_tell(opened.ldi, channels);
+        channels_left_out_ = keep_and_tell(opened.ldi, request.channels);
         if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);
-        key_ = key;
-        last_ = std::move(opened);
-    }
+        return opened;
+    };
+    last_ = &kept_.get({path, recolor, request.channels, request.depth, lens.focal_length_mm,
+                        lens.sensor_width_mm, colour.config, colour.input_space},
+                       read);
     last_->camera = read_camera(last_->header);
     return *last_;
 }

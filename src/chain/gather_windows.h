@@ -1,6 +1,7 @@
 // The pixels that are gathered, and the LDI from which they are gathered.
 #pragma once
 
+#include "../base/kept.h"
 #include "../base/subpixels.h"
 #include "../deep/recolor.h"
 #include "../io/open_ldi.h"
@@ -106,10 +107,8 @@ private:
     // Everything that the samples depend on. The focal length is part of it, because it makes ray lengths planar.
     using Key = std::tuple<std::string, std::string, std::string, DepthOptions, std::optional<double>,
                            std::optional<double>, std::string, std::string>;
-    bool holds(const Key &key) const;
-
-    Key key_;
-    std::optional<OpenedLdi> last_;
+    Kept<Key, OpenedLdi> kept_{1};
+    OpenedLdi *last_ = nullptr;
     bool read_now_ = false;
     std::vector<std::string> channels_left_out_;
 };

@@ -285,13 +285,9 @@ TakenPicture describe_picture(LdiCache &cache, const PictureRequest &request, co
 }
 
 LensFile LooksReader::read(const GivenLooks &given, std::optional<double> fstop) {
-    if (!said_ || lens_file_ != given.lens_file || aperture_file_ != given.aperture_file || fstop_ != fstop) {
-        said_ = read_looks({{}, given.lens_file, given.aperture_file}, fstop);
-        lens_file_ = given.lens_file;
-        aperture_file_ = given.aperture_file;
-        fstop_ = fstop;
-    }
-    LensFile looks = *said_;
+    LensFile looks = said_.get({given.lens_file, given.aperture_file, fstop}, [&](const auto &) {
+        return read_looks({{}, given.lens_file, given.aperture_file}, fstop);
+    });
     looks.values = look_values_over(given.values, looks.values);
     return looks;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../base/image.h"
+#include "../base/kept.h"
 #include "../dof/gather_picture.h"
 #include "../dof/lens/lens_gather.h"
 #include "../io/lens_file.h"
@@ -19,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace sparselens {
 
@@ -30,9 +32,8 @@ public:
     LensFile read(const GivenLooks &given, std::optional<double> fstop);
 
 private:
-    std::string lens_file_, aperture_file_;
-    std::optional<double> fstop_;
-    std::optional<LensFile> said_;
+    // By the files and the f-number.
+    Kept<std::tuple<std::string, std::string, std::optional<double>>, LensFile> said_{1};
 };
 
 // The given looks; where none are given, those of the camera. The camera then gets them, and the header names the lens.

@@ -26,7 +26,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_descriptions = 64;
 constexpr int most_proxy = 1024; // of dof-gather
 
 // Another text after the file was written again or replaced.
@@ -67,19 +66,13 @@ std::vector<std::size_t> chosen(const std::vector<std::string> &names, const Tak
     return some;
 }
 
-// Finds the picture of the job and moves it to the front.
-template <typename Kept, typename Job>
-auto find(Kept &kept, const Job &job) {
-    const auto found = std::ranges::find_if(kept, [&](const auto &made) { return made->job == job; });
-    if (found == kept.end()) return typename Kept::value_type();
-    kept.splice(kept.begin(), kept, found);
-    return kept.front();
-}
-
 } // namespace
 
 Gatherer::Gatherer(const ToolContext &tool)
-    : tool_(tool), presets_(installed_lenses()), most_bytes_(memory_for_frames(tool.max_memory)) {}
+    : tool_(tool), presets_(installed_lenses()),
+      pictures_(memory_for_frames(tool.max_memory), [](const Made &made) {
+          return std::uint64_t(made.picture.image.values.size() * sizeof(float));
+      }) {}
 
 // The colours are those that the configuration of OpenColorIO gives a file of such a name.
 void Gatherer::take(PipeRequest &request, std::string pixels) {
@@ -120,18 +113,17 @@ void Gatherer::forget_changed(const Job &job) {
     if (changed) cache_ = LdiCache();
 }
 
-std::shared_ptr<const Gatherer::Made> Gatherer::make(const Job &job, const Make &make) {
+Gatherer::Made Gatherer::make(const Job &job, const Make &make) {
     forget_changed(job);
-    const auto made = std::make_shared<Made>();
+    Made made;
     const Tell tell = [&](const Notice &notice) {
         if (level_of(notice) != NoticeLevel::note)
-            made->warnings.push_back(HandedPictures::in_words(one_line(with_options(words_of(notice)))));
+            made.warnings.push_back(HandedPictures::in_words(one_line(with_options(words_of(notice)))));
     };
-    made->job = job;
-    made->picture = make({*tool_.progress, tell, &device_});
+    made.picture = make({*tool_.progress, tell, &device_});
     ToolContext gather;
     gather.command_line = command_line("dof-gather", job.words);
-    append_history(made->picture.header, gather, job.command.history);
+    append_history(made.picture.header, gather, job.command.history);
     return made;
 }
 
@@ -142,11 +134,10 @@ void Gatherer::to_stored_colours(const Job &job, Image &image, Imf::Header &head
         to_exr_space(job.command.colour, "an EXR picture", image, header);
 }
 
-std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
+const Gatherer::Made &Gatherer::described(const Job &job) {
     // The window of a shutter's picture holds those of all moments, so they have to be read.
     if (names_moments(job.command.input)) return taken(job);
-    if (auto found = find(descriptions_, job)) return found;
-    const auto made = make(job, [&](const PictureWork &work) {
+    const auto describe = [&](const PictureWork &work) {
         TakenPicture picture = describe_picture(cache_, job.command, work);
         const Windows windows = picture.image.windows;
         Image pixel({windows.display, {windows.data.min, windows.data.min}, windows.pixel_aspect},
@@ -155,36 +146,27 @@ std::shared_ptr<const Gatherer::Made> Gatherer::described(const Job &job) {
         picture.image = in_type(std::move(pixel), job.command.type);
         picture.image.windows.data = windows.data; // without values but for its first pixel
         return picture;
-    });
-    descriptions_.push_front(made);
-    if (descriptions_.size() > most_descriptions) descriptions_.pop_back();
-    return made;
+    };
+    return descriptions_.get(job, [&](const Job &) { return make(job, describe); });
 }
 
-std::shared_ptr<const Gatherer::Made> Gatherer::taken(const Job &job) {
-    if (auto found = find(pictures_, job)) return found;
-    const auto bytes_of = [](const auto &made) { return made->picture.image.values.size() * sizeof(float); };
-    const auto made = make(job, [&](const PictureWork &work) {
+const Gatherer::Made &Gatherer::taken(const Job &job) {
+    const auto take = [&](const PictureWork &work) {
         TakenPicture picture = take_moments(cache_, true, job.command, work);
         to_stored_colours(job, picture.image, picture.header);
         picture.image = in_type(std::move(picture.image), job.command.type);
         return picture;
-    });
-    pictures_.push_front(made);
-    std::uint64_t bytes = 0;
-    for (const auto &kept : pictures_) bytes += bytes_of(kept);
-    for (; bytes > most_bytes_ && pictures_.size() > 1; pictures_.pop_back())
-        bytes -= bytes_of(pictures_.back());
-    return made;
+    };
+    return pictures_.get(job, [&](const Job &) { return make(job, take); });
 }
 
 Gatherer::Answer Gatherer::facts(const Job &job) {
-    const auto made = described(job);
+    const Made &made = described(job);
     forget_changed(job);
     const Tell quiet = [](const Notice &) {};
     ShotPicture shot;
-    static_cast<TakenPicture &>(shot) = made->picture;
-    shot.warnings = made->warnings;
+    static_cast<TakenPicture &>(shot) = made.picture;
+    shot.warnings = made.warnings;
     shot.depths = depth_extent(cache_.load(middle_moment(job.command), quiet).ldi);
     Json said = lens_facts(shot);
     said.update(
@@ -193,23 +175,23 @@ Gatherer::Answer Gatherer::facts(const Job &job) {
 }
 
 // The number of sizes: each is half of the last one, the smallest has a pixel.
-int Gatherer::levels_of(const Made &made) {
+int Gatherer::levels_of(const Job &job, const Made &made) {
     const Windows &windows = made.picture.image.windows;
-    const int side = std::max(windows.width(), windows.height()), proxy = made.job.command.windows.proxy;
+    const int side = std::max(windows.width(), windows.height()), proxy = job.command.windows.proxy;
     int levels = 1;
     while (levels < most_levels && side >> levels > 0 && proxy << levels <= most_proxy) ++levels;
     return levels;
 }
 
-Gatherer::Answer Gatherer::header(const Made &made) {
+Gatherer::Answer Gatherer::header(const Job &job, const Made &made) {
     Json said = layout_of(made.picture);
     const Imath::V2i first = made.picture.image.windows.data.min;
     const bool has_values = made.picture.image.values.size() > made.picture.image.channels.size();
     Image pixel = has_values ? crop(made.picture.image, {first, first}) : made.picture.image;
     pixel.windows.data = {first, first};
-    const GatherCommand &command = made.job.command;
-    said.update({{"levels", levels_of(made)},
-                 {"command", command_line("dof-gather", made.job.words)},
+    const GatherCommand &command = job.command;
+    said.update({{"levels", levels_of(job, made)},
+                 {"command", command_line("dof-gather", job.words)},
                  {"warnings", made.warnings}});
     return {std::move(said),
             flat_exr(command.input, pixel, made.picture.header, command.compression, command.tiles)};
@@ -231,11 +213,11 @@ Gatherer::Answer Gatherer::answer(const PipeRequest &request) {
     const Job job = job_of(request);
     switch (request.ask) {
     case Ask::facts: return facts(job);
-    case Ask::header: return header(*described(job));
+    case Ask::header: return header(job, described(job));
     case Ask::picture:
     case Ask::tile: break;
     }
-    return pixels(*taken(job), request);
+    return pixels(taken(job), request);
 }
 
 } // namespace sparselens

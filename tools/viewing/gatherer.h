@@ -2,6 +2,7 @@
 // of the memory allows. A picture is made again if one of its files has changed.
 #pragma once
 
+#include "base/kept.h"
 #include "chain/devices.h"
 #include "chain/take_picture.h"
 #include "harness/tool.h"
@@ -11,9 +12,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <list>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -50,32 +49,30 @@ private:
         }
     };
     struct Made {
-        Job job;
         TakenPicture picture;
         std::vector<std::string> warnings;
     };
-    using Kept = std::list<std::shared_ptr<const Made>>; // the last used first
 
     Job job_of(const PipeRequest &request) const;
-    std::shared_ptr<const Made> described(const Job &job);
-    std::shared_ptr<const Made> taken(const Job &job);
+    const Made &described(const Job &job);
+    const Made &taken(const Job &job);
     using Make = std::function<TakenPicture(const PictureWork &work)>;
-    std::shared_ptr<const Made> make(const Job &job, const Make &make);
+    Made make(const Job &job, const Make &make);
     static void to_stored_colours(const Job &job, Image &image, Imf::Header &header);
     Answer facts(const Job &job);
-    static Answer header(const Made &made);
+    static Answer header(const Job &job, const Made &made);
     static Answer pixels(const Made &made, const PipeRequest &request);
-    static int levels_of(const Made &made);
+    static int levels_of(const Job &job, const Made &made);
     void forget_changed(const Job &job);
 
     const ToolContext &tool_;
     Presets presets_;
-    std::uint64_t most_bytes_;                  // of the pictures
     std::map<std::string, std::string> stamps_; // of the files that were read
     LdiCache cache_;
     GatherDevice device_;
     HandedPictures handed_;
-    Kept pictures_, descriptions_;
+    static constexpr std::uint64_t most_descriptions = 64;
+    Kept<Job, Made> pictures_, descriptions_{most_descriptions};
 };
 
 } // namespace sparselens

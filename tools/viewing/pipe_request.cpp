@@ -149,7 +149,6 @@ PipeRequest parse_pipe_request(std::string_view text) {
 
 namespace {
 
-constexpr std::size_t most_kept = 4; // programs ask for parts of a few pictures by turns
 constexpr const char *name = "the picture that was handed over";
 
 Image image_of(const HandedLayout &layout, const std::string &pixels) {
@@ -171,18 +170,12 @@ std::string HandedPictures::path_of(const HandedLayout &layout, std::string pixe
     if (pixels.size() != layout.bytes())
         throw UsageError(fmt::format("the request: {} has {} bytes of pixels instead of {}", name,
                                      pixels.size(), layout.bytes()));
-    const auto found = std::ranges::find_if(
-        kept_, [&](const Kept &kept) { return kept.layout == layout && kept.pixels == pixels; });
-    if (found != kept_.end()) {
-        kept_.splice(kept_.begin(), kept_, found);
-        return kept_.front().file->path();
-    }
-    const Imf::Header no_metadata;
-    const auto file = std::make_shared<const MemoryFile>(
-        flat_exr(name, image_of(layout, pixels), no_metadata, Imf::NO_COMPRESSION));
-    if (kept_.size() >= most_kept) kept_.pop_back();
-    kept_.push_front({layout, std::move(pixels), file});
-    return file->path();
+    const auto as_file = [](const auto &handed) {
+        const Imf::Header no_metadata;
+        return std::make_unique<const MemoryFile>(
+            flat_exr(name, image_of(handed.first, handed.second), no_metadata, Imf::NO_COMPRESSION));
+    };
+    return kept_.get({layout, std::move(pixels)}, as_file)->path();
 }
 
 std::string HandedPictures::in_words(std::string message) {

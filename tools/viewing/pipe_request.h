@@ -8,16 +8,17 @@
 #pragma once
 
 #include "base/image.h"
+#include "base/kept.h"
 #include "io/files/text_file.h"
 #include "viewing/picture_file.h"
 
 #include <Imath/ImathBox.h>
 
-#include <list>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -45,12 +46,8 @@ public:
     static std::string in_words(std::string message);
 
 private:
-    struct Kept {
-        HandedLayout layout;
-        std::string pixels;
-        std::shared_ptr<const MemoryFile> file;
-    };
-    std::list<Kept> kept_; // the last used first
+    static constexpr std::uint64_t most_kept = 4; // programs ask for parts of a few pictures by turns
+    Kept<std::pair<HandedLayout, std::string>, std::unique_ptr<const MemoryFile>> kept_{most_kept};
 };
 
 enum class Ask { facts, header, picture, tile };

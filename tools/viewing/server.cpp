@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "viewing/door.h"
 #include "viewing/http_server.h"
-#include "viewing/page_assets.h"
 
 #include <fmt/format.h>
 

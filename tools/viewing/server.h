@@ -11,6 +11,11 @@
 
 namespace sparselens {
 
+// The page: the files of viewing/page, compiled in (cmake/Embed.cmake).
+extern const char *const page_body;
+extern const char *const page_style;
+extern const char *const page_script;
+
 // Serves until the process ends. Calls `ready` with the port. Throws Error if the port is not available.
 void serve(Viewer &viewer, int port, const std::string &key, const std::function<void(int port)> &ready);
 

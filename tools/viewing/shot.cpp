@@ -26,9 +26,6 @@ namespace sparselens {
 
 namespace {
 
-// How many proxies or holdouts are kept: a page settles on one, and tries others on the way to it.
-constexpr std::size_t most_small = 2;
-
 constexpr const char *shown_channels = "rgba";
 
 // Identifies how a file is read: its name and the focal length of the picture, which turns ray lengths into planar
@@ -55,15 +52,7 @@ Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext
     };
 }
 
-// Returns the last matching entry, else the result of `make`, which replaces the oldest of a few entries. Entries of
-// frames that are no longer held are dropped first.
-template <typename Kept, typename Alike, typename Make>
-const Kept &last_few(std::deque<Kept> &kept, const Alike &alike, const Make &make) {
-    std::erase_if(kept, [](const Kept &one) { return one.of.expired(); });
-    if (const auto found = std::ranges::find_if(kept, alike); found != kept.end()) return *found;
-    if (kept.size() >= most_small) kept.pop_front();
-    return kept.emplace_back(make());
-}
+constexpr auto is_of_no_frame = [](const auto &of, const auto &) { return of.frame.expired(); };
 
 } // namespace
 
@@ -75,15 +64,14 @@ Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
 Reel::Held Shot::frame(const GatherCommand &options) { return reel_.at(name_of(options)); }
 
 GatherWindows Shot::small(const Reel::Held &frame, const WindowOptions &options) {
-    const Small &made = last_few(
-        small_, [&](const Small &other) { return other.of.lock() == frame && other.proxy == options.proxy; },
-        [&] {
-            GatherWindows windows = gather_windows(options, frame->unpacked());
-            const Ldi ldi = *std::exchange(windows.changed, {});
-            PackedRows rows(ldi.windows);
-            rows.append(ldi);
-            return Small{frame, options.proxy, std::move(rows), std::move(windows)};
-        });
+    small_.drop_if(is_of_no_frame);
+    const Small &made = small_.get({frame, options.proxy}, [&](const OfFrame &) {
+        GatherWindows windows = gather_windows(options, frame->unpacked());
+        const Ldi ldi = *std::exchange(windows.changed, {});
+        PackedRows rows(ldi.windows);
+        rows.append(ldi);
+        return Small{std::move(rows), std::move(windows)};
+    });
     GatherWindows windows = made.windows;
     windows.changed = all_rows(made.ldi);
     return windows;
@@ -91,14 +79,9 @@ GatherWindows Shot::small(const Reel::Held &frame, const WindowOptions &options)
 
 const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) {
     if (options.holdout.empty()) return nullptr;
-    const auto alike = [&](const ReadHoldout &other) {
-        return other.path == options.holdout && other.of.lock() == frame &&
-               other.proxy == options.windows.proxy;
-    };
-    return &last_few(holdouts_, alike, [&] {
-                return ReadHoldout{options.holdout, frame, options.windows.proxy,
-                                   open_holdout(middle_moment(options), frame->in)};
-            }).ldi;
+    holdouts_.drop_if(is_of_no_frame);
+    return &holdouts_.get({frame, options.windows.proxy, options.holdout},
+                          [&](const OfFrame &) { return open_holdout(middle_moment(options), frame->in); });
 }
 
 ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,

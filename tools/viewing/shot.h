@@ -1,6 +1,7 @@
 // The LDIs that a page shows: read once, gathered for every request.
 #pragma once
 
+#include "base/kept.h"
 #include "chain/devices.h"
 #include "chain/take_picture.h"
 #include "harness/tool.h"
@@ -12,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,28 +44,30 @@ public:
     static ShownPixels displayed(Image image, double exposure, const ShotFrame &frame);
 
 private:
-    // A frame reduced to the size of a proxy.
-    struct Small {
-        std::weak_ptr<const ShotFrame> of; // only the reel owns it
-        int proxy;
-        PackedRows ldi;
-        GatherWindows windows;
-    };
     GatherWindows small(const Reel::Held &frame, const WindowOptions &options);
     const Ldi *holdout(const GatherCommand &options, const Reel::Held &frame);
 
-    struct ReadHoldout {
-        std::string path;
-        std::weak_ptr<const ShotFrame> of;
+    struct OfFrame {
+        std::weak_ptr<const ShotFrame> frame; // only the reel owns it
         int proxy;
-        Ldi ldi;
+        std::string holdout = {};
+        bool operator==(const OfFrame &other) const {
+            return frame.lock() == other.frame.lock() && proxy == other.proxy && holdout == other.holdout;
+        }
     };
+    // A frame reduced to the size of a proxy.
+    struct Small {
+        PackedRows ldi;
+        GatherWindows windows;
+    };
+    // How many proxies or holdouts are kept: a page settles on one, and tries others on the way to it.
+    static constexpr std::uint64_t most_small = 2;
 
     Reel reel_;
     GatherDevice device_;
-    std::deque<Small> small_; // the last few
     LooksReader looks_;
-    std::deque<ReadHoldout> holdouts_; // the last few
+    Kept<OfFrame, Small> small_{most_small};
+    Kept<OfFrame, Ldi> holdouts_{most_small};
 };
 
 // Facts that a page shows beside the picture: about the lens, and the samples of a pixel. As JSON, with infinity as

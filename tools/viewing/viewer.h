@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/image.h"
+#include "base/kept.h"
 #include "harness/commands/frames.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
@@ -28,18 +29,12 @@ public:
     template <typename Use>
     auto with(const std::string &path, const Use &use) {
         const std::lock_guard lock(mutex_);
-        if (path_ != path) {
-            path_.clear();
-            image_ = read_flat_exr(path).image;
-            path_ = path;
-        }
-        return use(std::as_const(image_));
+        return use(kept_.get(path, [](const std::string &file) { return read_flat_exr(file).image; }));
     }
 
 private:
     std::mutex mutex_;
-    std::string path_; // empty: none
-    Image image_;
+    Kept<std::string, Image> kept_{1};
 };
 
 // Finished tiles of the picture in progress: 8-bit pixels, sent to its page once.
