@@ -3,6 +3,7 @@
 #include "base/light.h"
 #include "deep/channel_alpha.h"
 #include "kernels/surface.h"
+#include "kernels/warp_rules.h"
 #include "warp/coverage.h"
 
 #include <algorithm>
@@ -231,14 +232,17 @@ void append_place(Ldi &out, bool volumes, const MergedSample &sample) {
 
 } // namespace
 
-PartMeans::PartMeans(const ReprojectedViews &views, double tolerance, std::span<const Matte> mattes)
+SurfaceMeans::SurfaceMeans(const ReprojectedViews &views, double tolerance, std::span<const Matte> mattes)
     : views_(views), tolerance_(tolerance), mattes_(mattes), channels_(views.samples(0).channels),
       alpha_(views.samples(0).alpha()) {
-    for (std::size_t k = 0; k < channels_.size(); ++k) coverage_.push_back(coverage_of(channels_, k));
+    for (std::size_t k = 0; k < channels_.size(); ++k) {
+        coverage_.push_back(coverage_of(channels_, k));
+        ids_.push_back(holds_ids(channels_[k]));
+    }
     for (std::size_t v = 0; v < views.size(); ++v) volumes_ = volumes_ || views.samples(v).has_volumes();
 }
 
-bool PartMeans::tell_of(const Surface &surface) const {
+bool SurfaceMeans::is_of_parts(const Surface &surface) const {
     return views_.some_are_deep() && std::ranges::any_of(surface.samples, [&](const ViewSample &s) {
                return views_.samples(s.view).is_part(s.source);
            });
@@ -246,36 +250,37 @@ bool PartMeans::tell_of(const Surface &surface) const {
 
 // Parts of one pixel hide each other, and have the weight of the first; `pixels` receives the sum of the weights of all
 // pixels.
-std::vector<PartMeans::Share> PartMeans::shares_of(std::span<const ViewSample> samples,
-                                                   double &pixels) const {
+std::vector<SurfaceMeans::Share> SurfaceMeans::shares_of(std::span<const ViewSample> samples,
+                                                         double &pixels) const {
     std::vector<Share> shares;
-    for (const ViewSample &s : samples) shares.push_back({s, s.weight, 0});
-    std::ranges::sort(shares, {}, [](const Share &s) { return std::tuple(s.sample.view, s.sample.source); });
+    for (const ViewSample &s : samples) shares.push_back({s, 0});
+    std::ranges::sort(shares, {}, [](const Share &s) { return std::tuple(s.view, s.source); });
     double left = 1, weight = 0;
     for (std::size_t n = 0; n < shares.size(); ++n) {
-        const ViewSample &s = shares[n].sample;
+        Share &s = shares[n];
         const ViewSamples &view = views_.samples(s.view);
-        const bool goes_on = n > 0 && shares[n - 1].sample.view == s.view && view.is_part(s.source) &&
-                             view.is_part(shares[n - 1].sample.source) &&
-                             view.in_one_pixel(shares[n - 1].sample.source, s.source);
+        const bool goes_on = n > 0 && shares[n - 1].view == s.view && view.is_part(s.source) &&
+                             view.is_part(shares[n - 1].source) &&
+                             view.in_one_pixel(shares[n - 1].source, s.source);
         if (!goes_on) {
             left = 1;
             weight = s.weight;
             pixels += weight;
         }
         const double alpha = std::clamp(double(alpha_at(view, alpha_, s.source)), 0.0, 1.0);
-        shares[n].weight = weight * left;
-        shares[n].covers = weight * left * alpha;
+        s.weight = weight * left;
+        s.covers = s.weight * alpha;
         left *= 1 - alpha;
     }
     return shares;
 }
 
 // The mean position and depth, weighted by what the shares cover, which must be above 0 in total.
-MergedSample PartMeans::place_of(std::span<const Share> shares) const {
+MergedSample SurfaceMeans::place_of(std::span<const Share> shares) const {
     double covers = 0, dx = 0, dy = 0, inverse_z = 0, inverse_back = 0, merged = 0;
-    for (const auto &[s, weight, by] : shares) {
+    for (const Share &s : shares) {
         const ViewSamples &view = views_.samples(s.view);
+        const double by = s.covers;
         covers += by;
         dx += by * double(s.dx);
         dy += by * double(s.dy);
@@ -294,14 +299,29 @@ MergedSample PartMeans::place_of(std::span<const Share> shares) const {
             {}};
 }
 
-void PartMeans::append_as_it_is(const ViewSample &s, Ldi &out) const {
+// Appends the mean of the samples, whose weights have the sum `weights`, times `coverage`.
+template <typename Samples> // Share or ViewSample
+void SurfaceMeans::append_values(const Samples &samples, double weights, double coverage, Ldi &out) const {
+    for (std::size_t k = 0; k < channels_.size(); ++k) {
+        double sum = 0;
+        for (const ViewSample &s : samples) sum += s.weight * double(views_.value(s, k));
+        out.values[k].push_back(ids_[k] ? views_.value(samples[0], k) : float(coverage * (sum / weights)));
+    }
+    if (mattes_.empty()) return;
+    MatteSum pairs(mattes_);
+    for (const ViewSample &s : samples)
+        pairs.add(coverage * s.weight / weights, [&](std::size_t k) { return views_.value(s, k); });
+    pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
+}
+
+void SurfaceMeans::append_as_it_is(const ViewSample &s, Ldi &out) const {
     const ViewSamples &view = views_.samples(s.view);
     append_place(out, volumes_,
                  {view.z(s.source), view.z_back(s.source), s.dx, s.dy, view.weight(s.source), 0, 0, {}});
     for (std::size_t k = 0; k < channels_.size(); ++k) out.values[k].push_back(views_.value(s, k));
 }
 
-void PartMeans::append_seen(std::span<const ViewSample> samples, Ldi &out) const {
+void SurfaceMeans::append_seen(std::span<const ViewSample> samples, Ldi &out) const {
     const ViewSample &centre = samples[0];
     double pixels = 0, covered = 0;
     const std::vector<Share> shares = shares_of(samples, pixels);
@@ -318,16 +338,16 @@ void PartMeans::append_seen(std::span<const ViewSample> samples, Ldi &out) const
         const std::size_t by = coverage_[k];
         double sum = 0, covers = 0;
         for (const Share &share : shares) {
-            sum += share.weight * double(views_.value(share.sample, k));
-            covers += share.weight * (by == npos ? 1 : double(views_.value(share.sample, by)));
+            sum += share.weight * double(views_.value(share, k));
+            covers += share.weight * (by == npos ? 1 : double(views_.value(share, by)));
         }
-        const bool stays = by == k || holds_ids(channels_[k]) || is_in_matte(channels_[k]) || !(covers > 0);
+        const bool stays = by == k || ids_[k] || is_in_matte(channels_[k]) || !(covers > 0);
         const double own = by == npos ? 1 : double(views_.value(centre, by));
         out.values[k].push_back(stays ? views_.value(centre, k) : float(own * (sum / covers)));
     }
 }
 
-void PartMeans::append_hidden(std::span<const ViewSample> samples, Ldi &out) const {
+void SurfaceMeans::append_hidden(std::span<const ViewSample> samples, Ldi &out) const {
     double pixels = 0, covered = 0;
     const std::vector<Share> shares = shares_of(samples, pixels);
     for (const Share &share : shares) covered += share.covers;
@@ -338,19 +358,29 @@ void PartMeans::append_hidden(std::span<const ViewSample> samples, Ldi &out) con
         coverage_by_majority(votes_on(views_, at, 1 / double(place.z), tolerance_)) / pixels;
     if (coverage == 0) return;
     append_place(out, volumes_, place);
-    MatteSum pairs(mattes_);
-    for (std::size_t k = 0; k < channels_.size(); ++k) {
-        double sum = 0;
-        for (const Share &share : shares) sum += share.weight * double(views_.value(share.sample, k));
-        out.values[k].push_back(holds_ids(channels_[k]) ? views_.value(shares[0].sample, k)
-                                                        : float(coverage * sum));
-    }
-    for (const Share &share : shares)
-        pairs.add(coverage * share.weight, [&](std::size_t k) { return views_.value(share.sample, k); });
-    pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
+    append_values(shares, 1, coverage, out);
 }
 
-void PartMeans::append_beyond(const Imath::V2i &pixel, Ldi &out) const {
+void SurfaceMeans::append_of_pixels(std::span<const ViewSample> samples, Ldi &out) const {
+    kernels::Mean mean{}; // double, because views may be many and depths close to each other
+    for (const ViewSample &s : samples)
+        kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight(s.source)), double(s.dx),
+                             double(s.dy), double(s.inverse_z),
+                             double(alpha_at(views_.samples(s.view), alpha_, s.source)));
+    kernels::divide_mean(mean);
+    const Imath::V2d place(samples[0].x + 0.5 + mean.dx, samples[0].y + 0.5 + mean.dy);
+    const double coverage =
+        samples[0].view == 0
+            ? 1
+            : coverage_by_votes(votes_on(views_, place, mean.inverse_z, tolerance_), mean.covers);
+    if (coverage == 0) return;
+    const bool alone = samples.size() == 1;
+    const float z = alone ? views_.samples(samples[0].view).z(samples[0].source) : float(1 / mean.inverse_z);
+    append_place(out, volumes_, {z, z, float(mean.dx), float(mean.dy), float(mean.merged), 0, 0, {}});
+    append_values(samples, mean.weights, coverage, out);
+}
+
+void SurfaceMeans::append_beyond(const Imath::V2i &pixel, Ldi &out) const {
     for (const std::uint64_t i : parts_leave_frame(views_.samples(0), pixel)) {
         ViewSample s{};
         s.source = std::uint32_t(i);
@@ -358,11 +388,11 @@ void PartMeans::append_beyond(const Imath::V2i &pixel, Ldi &out) const {
     }
 }
 
-void PartMeans::append_mean(const Surface &surface, Ldi &out) const {
+void SurfaceMeans::append_of_parts(const Surface &surface, Ldi &out) const {
     surface.seen_by_centre() ? append_seen(surface.samples, out) : append_hidden(surface.samples, out);
 }
 
-void PartMeans::append_nearest(const Surface &surface, Ldi &out) const {
+void SurfaceMeans::append_nearest(const Surface &surface, Ldi &out) const {
     const auto off_centre = [](const ViewSample &s) { return s.dx * s.dx + s.dy * s.dy; };
     const ViewSample &best = surface.seen_by_centre()
                                  ? surface.samples[0]

@@ -42,31 +42,33 @@ SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
 
 Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);
 
-// Averages what views show of a surface if parts of deep views (deep/view_samples.h) show it.
+// Averages what views show of a surface.
 //
-// A part covers its own share of a pixel, not the share that the mean of a surface's pixels would give. If a deep
-// centre view sees the surface, its coverage, depth and ids stay, and its colours become the mean over the views,
-// relative to what they cover. If it does not, the coverage is the mean over the views that see the surface, by their
-// vote (coverage.h). Several parts of one pixel are composited first.
-class PartMeans {
+// The mean of pixels has the colours that the views show by their weights, and covers by their votes (coverage.h).
+//
+// A part of a deep view (deep/view_samples.h) covers its own share of a pixel, not the share that the mean of a surface's
+// pixels would give. If a deep centre view sees the surface, its coverage, depth and ids stay, and its colours become
+// the mean over the views, relative to what they cover. If it does not, the coverage is the mean over the views that see
+// the surface, by their vote. Several parts of one pixel are composited first.
+class SurfaceMeans {
 public:
     // Refers to the views and to the mattes of their channels.
-    PartMeans(const ReprojectedViews &views, double tolerance, std::span<const Matte> mattes);
+    SurfaceMeans(const ReprojectedViews &views, double tolerance, std::span<const Matte> mattes);
 
-    bool volumes() const { return volumes_; } // whether any view has volumes
-    bool tell_of(const Surface &surface) const;
+    bool volumes() const { return volumes_; }       // whether any view has volumes
+    bool is_of_parts(const Surface &surface) const; // whether any sample is a part
 
-    // Appends such a surface, as one sample at most, to the last pixel of `out`.
-    void append_mean(const Surface &surface, Ldi &out) const;
-    // The same, as the centre view shows the surface; else as the most central view shows it.
+    // Each appends the surface, as one sample at most, to the last pixel of `out`.
+    void append_of_parts(const Surface &surface, Ldi &out) const;
+    void append_of_pixels(std::span<const ViewSample> samples, Ldi &out) const;
+    // As the centre view shows the surface; else as the most central view shows it.
     void append_nearest(const Surface &surface, Ldi &out) const;
     // Appends the parts of the centre view that continue beyond its frame.
     void append_beyond(const Imath::V2i &pixel, Ldi &out) const;
 
 private:
-    struct Share {
-        ViewSample sample;
-        double weight, covers; // the weight of its values, and of its position
+    struct Share : ViewSample { // with the weight of its values
+        double covers;          // the weight of its position
     };
 
     std::vector<Share> shares_of(std::span<const ViewSample> samples, double &pixels) const;
@@ -74,6 +76,8 @@ private:
     void append_seen(std::span<const ViewSample> samples, Ldi &out) const;
     void append_hidden(std::span<const ViewSample> samples, Ldi &out) const;
     void append_as_it_is(const ViewSample &sample, Ldi &out) const;
+    template <typename Samples>
+    void append_values(const Samples &samples, double weights, double coverage, Ldi &out) const;
 
     const ReprojectedViews &views_;
     double tolerance_;
@@ -81,6 +85,7 @@ private:
     std::span<const Channel> channels_;
     std::size_t alpha_;
     std::vector<std::size_t> coverage_; // of each channel; npos: none
+    std::vector<bool> ids_;             // whether a channel holds_ids()
     bool volumes_ = false;
 };
 

@@ -38,8 +38,6 @@ private:
     void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
     std::vector<PlacedView> placed() const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
-    void emit_nearest(std::span<const ViewSample> samples, Ldi &out) const;
-    void emit_mean(std::span<const ViewSample> samples, Ldi &out) const;
 
     bool averages() const { return options_.merge == Merge::average; }
 
@@ -50,9 +48,7 @@ private:
     ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
     std::vector<Matte> mattes_;
-    std::vector<bool> ids_; // whether a channel holds_ids()
-    std::size_t alpha_;     // the channel; npos: all samples opaque
-    PartMeans part_means_;
+    SurfaceMeans means_;
 };
 
 Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
@@ -61,14 +57,12 @@ Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
                             : std::numeric_limits<double>::infinity()),
       views_(std::move(views), options.focal_px, scale_,
              averages() && options.split_silhouettes ? options.surface_px : 0),
-      mattes_(find_mattes(views_.samples(0).channels)), part_means_(views_, tolerance_, mattes_) {
+      mattes_(find_mattes(views_.samples(0).channels)), means_(views_, tolerance_, mattes_) {
     if (options.focus)
         focused_ = ThinLens{.radius = options.radius, .focal_px = options.focal_px, .focus = *options.focus};
     layout_.windows = views_.samples(0).windows;
     layout_.channels = views_.samples(0).channels;
     layout_.values.resize(layout_.channels.size());
-    alpha_ = find_channel(layout_.channels, "A");
-    for (const Channel &channel : layout_.channels) ids_.push_back(holds_ids(channel));
     if (averages()) grow_window();
 }
 
@@ -82,66 +76,16 @@ void Warper::grow_window() {
     }
 }
 
-void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
-    kernels::Mean mean{}; // double, because views may be many and depths close to each other
-    for (const ViewSample &s : samples)
-        kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight(s.source)), double(s.dx),
-                             double(s.dy), double(s.inverse_z),
-                             double(alpha_at(views_.samples(s.view), alpha_, s.source)));
-    kernels::divide_mean(mean);
-    const Imath::V2d place(samples[0].x + 0.5 + mean.dx, samples[0].y + 0.5 + mean.dy);
-    const double coverage =
-        samples[0].view == 0
-            ? 1
-            : coverage_by_votes(votes_on(views_, place, mean.inverse_z, tolerance_), mean.covers);
-    if (coverage == 0) return;
-    const bool alone = samples.size() == 1;
-    out.z.push_back(alone ? views_.samples(samples[0].view).z(samples[0].source) : float(1 / mean.inverse_z));
-    if (part_means_.volumes()) out.z_back.push_back(out.z.back());
-    out.dx.push_back(float(mean.dx));
-    out.dy.push_back(float(mean.dy));
-    out.weight.push_back(float(mean.merged));
-    for (std::size_t k = 0; k < out.channels.size(); ++k) {
-        double sum = 0;
-        for (const ViewSample &s : samples) sum += s.weight * views_.value(s, k);
-        out.values[k].push_back(ids_[k] ? views_.value(samples[0], k)
-                                        : float(coverage * (sum / mean.weights)));
-    }
-    ++out.begin.back();
-    if (mattes_.empty()) return;
-    MatteSum pairs(mattes_);
-    for (const ViewSample &s : samples)
-        pairs.add(coverage * s.weight / mean.weights, [&](std::size_t k) { return views_.value(s, k); });
-    pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
-}
-
-// Appends the centre's sample, else the most central one, unchanged.
-void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
-    const auto off_centre = [](const ViewSample &s) {
-        return s.view == 0 ? -1.0f : s.dx * s.dx + s.dy * s.dy;
-    };
-    const ViewSample &best = *std::ranges::min_element(samples, {}, off_centre);
-    const ViewSamples &view = views_.samples(best.view);
-    out.z.push_back(view.z(best.source));
-    if (part_means_.volumes()) out.z_back.push_back(out.z.back());
-    out.dx.push_back(best.dx);
-    out.dy.push_back(best.dy);
-    out.weight.push_back(view.weight(best.source));
-    for (std::size_t k = 0; k < out.channels.size(); ++k) out.values[k].push_back(views_.value(best, k));
-    ++out.begin.back();
-}
-
 void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
-    const bool centre_alone = !averages() || (!agree && surface.seen_by_centre());
-    if (part_means_.tell_of(surface))
-        centre_alone ? part_means_.append_nearest(surface, out) : part_means_.append_mean(surface, out);
-    else if (centre_alone)
-        emit_nearest(surface.samples, out);
+    if (!averages() || (!agree && surface.seen_by_centre()))
+        means_.append_nearest(surface, out);
+    else if (means_.is_of_parts(surface))
+        means_.append_of_parts(surface, out);
     else if (surface.seen_by_centre() && surface.samples.size() > 1 &&
              some_view_is_missing(views_, surface.samples))
-        emit_mean(balanced(surface.samples), out);
+        means_.append_of_pixels(balanced(surface.samples), out);
     else
-        emit_mean(surface.samples, out);
+        means_.append_of_pixels(surface.samples, out);
 }
 
 Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const {
@@ -162,13 +106,13 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
     out.begin.reserve(rows.pixels() + 1);
     for (std::vector<float> *array : {&out.z, &out.dx, &out.dy, &out.weight})
         array->reserve(surfaces.list.size());
-    if (part_means_.volumes()) out.z_back.reserve(surfaces.list.size());
+    if (means_.volumes()) out.z_back.reserve(surfaces.list.size());
     for (std::vector<float> &values : out.values) values.reserve(surfaces.list.size());
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
         out.begin.push_back(out.begin.back());
         for (const Surface &surface : surfaces.pixel(pixel)) emit(surface, agree[pixel], out);
-        if (surfaces.pixel(pixel).empty()) part_means_.append_beyond(pixels.pixel(pixel), out);
+        if (surfaces.pixel(pixel).empty()) means_.append_beyond(pixels.pixel(pixel), out);
     }
     return out;
 }
