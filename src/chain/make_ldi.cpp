@@ -49,31 +49,16 @@ OpenedPackedView open_packed(const std::string &path, const OpenOptions &options
                                : packed(open_view(path, options, otherwise));
 }
 
-// The views on the lens, and notes about their files.
+// The views on the lens.
 struct PlacedViews {
     std::vector<PackedView> views; // the centre view first
-    Imf::Header header;            // of the centre view
+    std::vector<OpenedFile> files; // of the views
     Camera camera;                 // of the centre view, with the lens points of all views
-    DepthMeaning depth = DepthMeaning::planar;
-    bool depth_filtered = false, unpremultiplied = false;            // of the centre view, see OpenedView
-    std::vector<InvalidValues> bad = {};                             // per file
-    std::vector<std::size_t> speckles = {};                          // per file
-    std::vector<std::vector<std::string>> notes = {}, warnings = {}; // per file
 };
 
 void add(PlacedViews &to, OpenedPackedView &opened) {
     to.views.push_back(std::move(opened.view));
-    to.bad.push_back(opened.bad);
-    to.speckles.push_back(opened.speckles);
-    to.notes.push_back(std::move(opened.notes));
-    to.warnings.push_back(std::move(opened.warnings));
-}
-
-void describe_as(const OpenedPackedView &centre, PlacedViews &to) {
-    to.header = centre.header;
-    to.depth = centre.depth;
-    to.depth_filtered = centre.depth_filtered;
-    to.unpremultiplied = centre.unpremultiplied;
+    to.files.push_back(std::move(opened));
 }
 
 Camera with_subpixels(Camera camera, const LdiFromViews &request) {
@@ -114,7 +99,6 @@ PlacedViews open_views(const LdiFromViews &request) {
         centre.warnings.push_back(warning);
     const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
-    describe_as(centre, placed);
     std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
     add(placed, centre);
     in_order(
@@ -131,9 +115,13 @@ PlacedViews open_views(const LdiFromViews &request) {
     return placed;
 }
 
-// Copies the view.
+// Copies the view, without what was said about its file.
 OpenedPackedView opened(const ViewInMemory &view) {
-    return view.flat ? packed(OpenedView(*view.flat)) : packed(OpenedLdi(*view.deep));
+    OpenedPackedView copy = view.flat ? packed(OpenedView(*view.flat)) : packed(OpenedLdi(*view.deep));
+    copy.notes = copy.warnings = {};
+    copy.speckles = 0;
+    copy.bad = {};
+    return copy;
 }
 
 PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &request) {
@@ -141,10 +129,9 @@ PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &r
     std::vector<StatedView> stated;
     for (const ViewInMemory &in : views) {
         OpenedPackedView view = opened(in);
-        if (placed.views.empty()) describe_as(view, placed);
         const Camera camera = camera_with_options(request.lens, view.camera);
         stated.push_back({view.view.name, with_subpixels(camera, request), in.position});
-        placed.views.push_back(std::move(view.view));
+        add(placed, view);
     }
     placed.camera = place_views(placed.views, stated);
     return placed;
@@ -164,10 +151,10 @@ void tell_framings(const Tell &tell, std::span<const PackedView> views) {
 void tell_views(const Tell &tell, const PlacedViews &in) {
     tell_camera(tell, in.views[0].name, in.camera);
     tell_framings(tell, in.views);
-    for (std::size_t i = 0; i < in.notes.size(); ++i) {
-        tell_reading(tell, in.views[i].name, in.notes[i], in.warnings[i]);
-        tell_speckles(tell, in.views[i].name, in.speckles[i]);
-        tell_invalid_values(tell, in.views[i].name, in.bad[i]);
+    for (std::size_t i = 0; i < in.files.size(); ++i) {
+        tell_reading(tell, in.views[i].name, in.files[i].notes, in.files[i].warnings);
+        tell_speckles(tell, in.views[i].name, in.files[i].speckles);
+        tell_invalid_values(tell, in.views[i].name, in.files[i].bad);
     }
     tell_layers(tell, in.views[0].name, in.views[0].samples.channels);
 }
@@ -214,16 +201,18 @@ MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &wor
     check_views(in.views); // before notices about views that do not fit together
     tell_views(work.tell, in);
     MadeLdi out;
-    out.header = in.header;
+    const OpenedFile &centre = in.files[0];
+    out.header = centre.header;
     for (PackedView &view : in.views)
-        if (request.colour) out.header = to_linear(work.tell, *request.colour, view.name, in.header, view);
+        if (request.colour)
+            out.header = to_linear(work.tell, *request.colour, view.name, centre.header, view);
     const WarpOptions by = with_lens(request.warp, in.camera, in.views);
     take_denoised(request, by, in.views, work.tell);
     out.camera = in.camera;
     write_camera(out.header, out.camera);
     write_picture_window(out.header, in.views[0].samples.windows.data);
     const std::vector<std::string> warnings =
-        view_warnings(in.views, {in.depth, in.depth_filtered, in.camera, in.unpremultiplied});
+        view_warnings(in.views, {centre.depth, centre.depth_filtered, in.camera, centre.unpremultiplied});
     count_given(in.views, out);
     warp_views(in, by, request, work, out);
     tell_warnings(work.tell, warnings);
