@@ -2,7 +2,7 @@
 """Reads the cameras of a USD stage as JSON, and writes the cameras around one of them, for ldi-plan and ldi-warp.
 
     usd_cameras.py read STAGE [--frame N] >CAMERAS.json      then: ldi-plan --camera CAMERAS.json ...
-    usd_cameras.py write STAGE <VIEWS.json                   as ldi-plan asks for it (src/io/usd/usd_views.cpp)
+    usd_cameras.py write STAGE <VIEWS.json >STAGE            as ldi-plan asks for it (src/io/usd/usd_views.cpp)
 
 ldi-plan and ldi-warp run it themselves. It needs USD's library, pxr: usd-core of PyPI, or a Python that has it.
 
@@ -12,9 +12,10 @@ times. An infinite number is null.
 import argparse
 import json
 import math
-import os
+import pathlib
 import struct
 import sys
+import tempfile
 
 sys.path = [folder for folder in sys.path if folder]  # not the current folder, where anybody may have put a pxr.py
 try:
@@ -237,17 +238,13 @@ def write(views, file):
     write_settings(stage, views)
     stage.SetMetadata("renderSettingsPrimPath", "/Render/sparselens")
     stage.SetDefaultPrim(stage.GetPrimAtPath("/sparselens"))
-    folder, name = os.path.split(file)
-    aside = os.path.join(folder, f".{os.getpid()}.{name}")
-    try:  # complete or not at all
-        open(aside, "wb").close()  # USD would make the folder
-        stage.GetRootLayer().Export(aside)
-        os.replace(aside, file)
-    except (Tf.ErrorException, OSError) as error:
-        if os.path.exists(aside):
-            os.remove(aside)
-        why = error.strerror if isinstance(error, OSError) else words_of(error)
-        raise Refused(f"cannot be written: {why}") from None
+    with tempfile.TemporaryDirectory() as folder:  # USD writes files only
+        layer = pathlib.Path(folder, "views").with_suffix(pathlib.Path(file).suffix)
+        try:
+            stage.GetRootLayer().Export(str(layer))
+        except Tf.ErrorException as error:
+            raise Refused(f"cannot be written: {words_of(error)}") from None
+        return layer.read_bytes()
 
 
 def main():
@@ -260,7 +257,7 @@ def main():
         if asked.verb == "read":
             json.dump(read(asked.stage, asked.frame), sys.stdout)
         else:
-            write(json.load(sys.stdin), asked.stage)
+            sys.stdout.buffer.write(write(json.load(sys.stdin), asked.stage))
     except Refused as error:
         sys.exit(f"{asked.stage}: {error}")
 

@@ -130,8 +130,23 @@ done
 fails_saying 2 'give a centre view, or --camera SHOT.usd and --cameras VIEWS.usd' "$bin/ldi-plan" --camera shot.usda
 fails_saying 1 'missing.usda: cannot be read as USD' "$bin/ldi-plan" --camera missing.usda --cameras x.usda
 fails_saying 1 'views/center.exr: cannot be read as USD: Cannot determine file format' "$bin/ldi-plan" --camera views/center.exr --cameras x.usda
-fails_saying 1 'nowhere/x.usda: cannot be written: No such file' "$bin/ldi-plan" --camera shot.usda --cameras nowhere/x.usda
 mkdir taken.usda
-fails_saying 1 'taken.usda: cannot be written: Is a directory' "$bin/ldi-plan" --camera shot.usda --cameras taken.usda
+fails_saying 1 'taken.usda: cannot write: Is a directory' "$bin/ldi-plan" --camera shot.usda --cameras taken.usda
 [ ! -e x.usda ] || fail "a failure wrote x.usda"
-[ -z "$(ls -A | grep '^\.[0-9]')" ] || fail "left behind: $(ls -A)"
+
+# Layers are written as all outputs are: into folders that are made, with the mode of the file that they replace, and not
+# over a read-only one. Root may replace any file: another user tries.
+exits 0 "$bin/ldi-plan" --camera shot.usda --cameras made/x.usda
+cmp made/x.usda views.usda || fail "a new folder changes the layer"
+chmod 640 made/x.usda
+exits 0 "$bin/ldi-plan" --camera shot.usda --cameras made/x.usda
+[ "$(stat -c %a made/x.usda)" = 640 ] || fail "a replaced layer loses its mode"
+chmod 444 made/x.usda && chmod 755 "$scratch" && chmod 777 made
+other=()
+[ "$(id -u)" -ne 0 ] || other=(setpriv --reuid=54321 --regid=54321 --clear-groups)
+if "${other[@]}" test -x "$bin/ldi-plan" -a -x "$SPARSELENS_USD_PYTHON"; then
+    fails_saying 1 'made/x.usda: cannot replace: Permission denied' "${other[@]}" "$bin/ldi-plan" --camera shot.usda --cameras made/x.usda
+else
+    echo "skipped: the read-only layer: the tools cannot be run by another user"
+fi
+[ -z "$(ls -A . made | grep '^\.[a-z0-9]')" ] || fail "left behind: $(ls -A . made)"

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/files/file_stream.h"
+#include "io/files/text_file.h"
 #include "io/usd/usd_script.h"
 #include "lens/thin_lens.h"
 #include "plan/plan.h"
@@ -128,7 +129,7 @@ std::string usd_views_json(const UsdViews &views) {
 }
 
 void write_usd_views(const std::string &path, const UsdViews &views) {
-    run_usd_script({"write", "--", path}, usd_views_json(views), path);
+    write_text_file(path, run_usd_script({"write", "--", path}, usd_views_json(views), path));
 }
 
 } // namespace sparselens

@@ -57,7 +57,7 @@ void add_lens_points(UsdViews &views, const std::vector<Imath::V2d> &points);
 // The views as the script takes them: JSON, with the values of cameras by their names in USD.
 std::string usd_views_json(const UsdViews &views);
 
-// Writes the layer (.usda, .usdc, .usd); it appears complete or not at all. Throws Error, naming it, if it cannot be
+// Writes the layer (.usda, .usdc, .usd); it appears complete or not at all (OutputFile). Throws Error, naming it, if it cannot be
 // written.
 void write_usd_views(const std::string &path, const UsdViews &views);
 
