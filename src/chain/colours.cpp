@@ -85,16 +85,9 @@ LinearColours linear_colours(const Tell &tell, const ColourOptions &options, con
     return result;
 }
 
-// The space of pixels that went through to_linear(), or that have never been in a file.
 std::string space_of(const ColourConfig &config, const Imf::Header &header) {
-    if (!Imf::hasChromaticities(header)) return config.scene_linear();
-    return config.linear_space(Imf::chromaticities(header)).value_or(config.scene_linear());
-}
-
-ColourTransform output_transform(const ColourConfig &config, const ColourOptions &options,
-                                 const std::string &from) {
-    return options.output_space.empty() ? config.to_display(options.display, options.view, from)
-                                        : config.between(from, options.output_space);
+    const auto stated = stated_space(config, header);
+    return stated && stated->space ? *stated->space : config.scene_linear();
 }
 
 } // namespace
@@ -140,7 +133,7 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
 bool same_chromaticities(const Imf::Header &a, const Imf::Header &b) {
     const bool stated = Imf::hasChromaticities(a);
     if (stated != Imf::hasChromaticities(b)) return false;
-    return !stated || Imf::chromaticities(a) == Imf::chromaticities(b);
+    return !stated || same_chromaticities(Imf::chromaticities(a), Imf::chromaticities(b));
 }
 
 void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
@@ -152,23 +145,27 @@ void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const 
 
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
     const ColourConfig config(options.config);
-    return output_transform(config, options, space_of(config, metadata));
+    const std::string from = space_of(config, metadata);
+    return options.output_space.empty() ? config.to_display(options.display, options.view, from)
+                                        : config.between(from, options.output_space);
 }
-
-namespace {
-
-void to_output_space(const ColourOptions &options, Image &image, Imf::Header &header) {
-    const ColourConfig config(options.config);
-    transform_colours(output_transform(config, options, space_of(config, header)), image);
-    header = with_space(config, header, options.output_space);
-}
-
-} // namespace
 
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header) {
     if (!(options.display.empty() && options.view.empty()))
         throw UsageError("`display` and `view_transform` apply to PNG, JPEG and TIFF, not to " + path);
-    if (!options.output_space.empty()) to_output_space(options, image, header);
+    if (options.output_space.empty()) return;
+    const ColourConfig config(options.config);
+    transform_colours(config.between(space_of(config, header), options.output_space), image);
+    header = with_space(config, header, options.output_space);
+}
+
+bool to_shown_colours(const ColourOptions &options, const std::string &path, Image &image,
+                      const Imf::Header &metadata) {
+    drop_unwritten_coverage(path, image);
+    if (holds_linear_light(path) && (options.output_space + options.display + options.view).empty())
+        return false;
+    transform_colours(output_transform(options, metadata), image);
+    return true;
 }
 
 std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
@@ -184,13 +181,7 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
     }
     if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
     if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
-    drop_unwritten_coverage(path, image);
-    const bool stays =
-        holds_linear_light(path) && (options.output_space + options.display + options.view).empty();
-    if (!stays) {
-        to_output_space(options, image, header);
-        tell({NoticeKind::displayed, path});
-    }
+    if (to_shown_colours(options, path, image, header)) tell({NoticeKind::displayed, path});
     write_shown_picture(path, image);
     return 0;
 }

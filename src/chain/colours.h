@@ -39,7 +39,7 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
 void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
                  Image &image);
 
-// Whether two headers state the same chromaticities, or neither states any.
+// Whether two headers state the same chromaticities, as far as headers round them, or neither states any.
 bool same_chromaticities(const Imf::Header &a, const Imf::Header &b);
 
 // Whether to_linear() leaves the colours of such a file unchanged.
@@ -52,6 +52,11 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
 // Makes the linear colours of a picture those of an OpenEXR file in `output_colorspace`, and its header that of the
 // file; see write_picture(). Throws UsageError, naming `path`, if a display is given.
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header);
+
+// Makes the linear colours of a picture those of the file of that name for the screen, and drops coverage that it cannot
+// hold; see write_picture(). Returns false if the colours stay linear.
+bool to_shown_colours(const ColourOptions &options, const std::string &path, Image &image,
+                      const Imf::Header &metadata);
 
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
 // files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities; so are files of

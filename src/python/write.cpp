@@ -1,7 +1,7 @@
 #include "base/error.h"
+#include "chain/colours.h"
 #include "chain/notices.h"
 #include "io/camera/camera_header.h"
-#include "io/display/colour.h"
 #include "io/display/shown_picture.h"
 #include "python/arrays.h"
 #include "python/job.h"
@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sparselens::python {
 
@@ -31,20 +32,6 @@ void set_type(std::vector<Channel> &channels, std::optional<PixelType> type) {
         if (type && channel.type != PixelType::uint32) channel.type = *type;
 }
 
-// Converts the colours of a picture to those of a file for the screen.
-struct Display {
-    std::string config, display, view;
-
-    void show(const std::string &path, Image &image, const Imf::Header &header) const {
-        drop_unwritten_coverage(path, image);
-        if (holds_linear_light(path) && (display + view).empty()) return;
-        const ColourConfig colours(config);
-        const auto stated = stated_space(colours, header);
-        const std::string from = stated && stated->space ? *stated->space : colours.scene_linear();
-        transform_colours(colours.to_display(display, view, from), image);
-    }
-};
-
 void refuse_wrong_name(const std::string &path, OutputKind kind) {
     if (const std::string wrong = wrong_with_output(path, kind); !wrong.empty())
         throw UsageError("path: " + wrong);
@@ -55,26 +42,19 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
         keywords.word<PixelType>("type", {{"half", PixelType::half}, {"float", PixelType::float32}});
     const auto compression = compression_from(keywords, false);
     const int tiles = keywords.whole("tiles", 0, 8192).value_or(0);
-    const Display display{keywords.path("colorconfig"), keywords.text("display"),
-                          keywords.text("view_transform")};
+    const ColourOptions colour{.config = keywords.path("colorconfig"),
+                               .display = keywords.text("display"),
+                               .view = keywords.text("view_transform")};
     keywords.done();
     refuse_wrong_name(path, OutputKind::picture);
-    const bool shown = is_shown_picture(path);
-    if (shown && (compression || type || tiles > 0))
-        throw UsageError("compression: it, type and tiles apply to EXR, not to " + path);
-    if (!shown && !(display.display + display.view).empty())
-        throw UsageError("display: it and view_transform apply to PNG, JPEG and TIFF, not to " + path);
+    if (type && is_shown_picture(path)) throw UsageError("type: applies to EXR, not to " + path);
     set_type(picture.image.channels, type);
-    std::size_t clamped = 0;
-    run_job(py::none(), [&](Progress &) {
-        if (!shown) {
-            clamped = write_flat_exr(path, picture.image, picture.header, compression, tiles);
-            return;
-        }
-        display.show(path, picture.image, picture.header);
-        write_shown_picture(path, picture.image);
+    told_job<bool>(py::none(), [&](Progress &, const Tell &tell) {
+        tell_clamped(tell, path,
+                     sparselens::write_picture(tell, colour, path, std::move(picture.image), picture.header,
+                                               compression, tiles));
+        return true;
     });
-    if (clamped > 0) warn(words_of({NoticeKind::clamped, path, {clamped}}));
 }
 
 void write_deep(const std::string &path, const LdiObject &in, Keywords &keywords) {
@@ -100,7 +80,7 @@ py::object png_of(const PictureObject &picture) {
     if (!all_found(find_rgb(picture.image.channels))) return py::none();
     return py::bytes(job<std::string>(py::none(), [&](Progress &) {
         Image image = picture.image;
-        Display().show("picture.png", image, picture.header);
+        to_shown_colours({}, "picture.png", image, picture.header);
         return shown_picture("Picture", "png", image);
     }));
 }

@@ -104,13 +104,6 @@ const std::vector<LinearSpace> &linear_spaces() {
     return spaces;
 }
 
-// Headers round these numbers, to three places or more.
-bool same_chromaticities(const Imf::Chromaticities &a, const Imf::Chromaticities &b) {
-    constexpr float rounding = 1e-3f;
-    return a.red.equalWithAbsError(b.red, rounding) && a.green.equalWithAbsError(b.green, rounding) &&
-           a.blue.equalWithAbsError(b.blue, rounding) && a.white.equalWithAbsError(b.white, rounding);
-}
-
 // The name that the configuration itself gives to the space, if it has it.
 std::optional<std::string> own_name(const ocio::Config &config, const std::string &name) {
     const auto space = config.getColorSpace(name.c_str());
@@ -193,6 +186,12 @@ ColourTransform ColourConfig::between(const std::string &from, const std::string
             ColourTransform::Processor{exactly(*processor)});
         return transform;
     });
+}
+
+bool same_chromaticities(const Imf::Chromaticities &a, const Imf::Chromaticities &b) {
+    constexpr float rounding = 1e-3f;
+    return a.red.equalWithAbsError(b.red, rounding) && a.green.equalWithAbsError(b.green, rounding) &&
+           a.blue.equalWithAbsError(b.blue, rounding) && a.white.equalWithAbsError(b.white, rounding);
 }
 
 std::optional<std::string> ColourConfig::linear_space(const Imf::Chromaticities &chromaticities) const {

@@ -68,6 +68,9 @@ void transform_colours(const ColourTransform &transform, std::span<const Channel
 
 void transform_colours(const ColourTransform &transform, Image &image);
 
+// Whether these are the primaries and white of one space: programs round them in headers, to three places or more.
+bool same_chromaticities(const Imf::Chromaticities &a, const Imf::Chromaticities &b);
+
 // The colour space that the header of an EXR states. In this order: chromaticities; colorInteropID, an id of the Color
 // Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, which is such an id or a configuration's
 // name.
