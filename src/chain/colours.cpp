@@ -198,8 +198,13 @@ Image light_and_coverage(const Image &image) {
     return result;
 }
 
-} // namespace
+struct FlatLight {
+    std::string name; // of the file, for messages
+    Image image;      // light and coverage only: valid values
+    Imf::Header header;
+};
 
+// `colour` says how its colours are made linear; null: they are linear. `path` is for messages.
 FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell) {
     const std::string name = display_name(path);
     // Every pixel is placed in front of the camera, so that its values are repaired like those of a view.
@@ -213,19 +218,13 @@ FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *
     return light;
 }
 
-PictureChoice without_depth(PictureChoice choice) {
+// Reads a flat EXR. `choice` is that of the picture to which it belongs, except for its depth.
+FlatFile read_partner(const std::string &path, PictureChoice choice, const Tell &tell) {
+    tell({NoticeKind::reading, path});
     choice.depth.clear();
     choice.depth_file.clear();
-    return choice;
+    return read_flat_exr(path, choice);
 }
-
-FlatLight open_light(const std::string &path, const PictureChoice &choice, const ColourOptions *colour,
-                     const Tell &tell) {
-    tell({NoticeKind::reading, path});
-    return light_of(read_flat_exr(path, without_depth(choice)), path, colour, tell);
-}
-
-namespace {
 
 void check_count(std::size_t denoised, std::size_t views) {
     if (denoised != views)
@@ -238,10 +237,9 @@ void check_count(std::size_t denoised, std::size_t views) {
 std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell &tell) {
     const ColourOptions *colour = request.colour ? &*request.colour : nullptr;
     std::vector<DenoisedPicture> pictures;
-    for (const std::string &path : request.denoised) {
-        FlatLight light = open_light(path, request.depth.picture, colour, tell);
-        pictures.push_back({path, std::move(light.image)});
-    }
+    for (const std::string &path : request.denoised)
+        pictures.push_back(
+            {path, light_of(read_partner(path, request.depth.picture, tell), path, colour, tell).image});
     for (const DenoisedPicture &picture : request.denoised_pictures) {
         FlatFile file;
         file.image = picture.image;
@@ -329,9 +327,7 @@ void recolor_by(FlatFile file, const std::string &path, const ColourOptions *col
 
 void recolor_by(const std::string &path, const PictureChoice &choice, const ColourOptions &colour,
                 OpenedLdi &ldi, const Tell &tell) {
-    if (path.empty()) return;
-    tell({NoticeKind::reading, path});
-    recolor_by(read_flat_exr(path, without_depth(choice)), path, &colour, ldi, tell);
+    if (!path.empty()) recolor_by(read_partner(path, choice, tell), path, &colour, ldi, tell);
 }
 
 } // namespace sparselens

@@ -72,24 +72,6 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
 struct LdiFromViews; // chain/make_ldi.h
 struct WarpOptions;  // warp/warp.h
 
-struct FlatLight {
-    std::string name; // of the file, for messages
-    Image image;      // light and coverage only: valid values
-    Imf::Header header;
-};
-
-// Takes the light of a file that was read. `colour` says how its colours are made linear; null: they are linear. `path`
-// is for messages.
-FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell);
-
-// The choice for a picture that need not have depth.
-PictureChoice without_depth(PictureChoice choice);
-
-// Reads a flat EXR. `choice` is that of the picture to which it belongs, except for its depth. Throws Error, naming the
-// file, if it is deep or cannot be read.
-FlatLight open_light(const std::string &path, const PictureChoice &choice, const ColourOptions *colour,
-                     const Tell &tell);
-
 // Gives the denoised pictures of the request to the views, whose colours are linear (denoised/denoised_views.h). The
 // pictures come from files, which it opens and makes linear, from memory, or from the views themselves, if these hold
 // both. Does nothing if there are none. Throws UsageError if their number is not that of the views.
