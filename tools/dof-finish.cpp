@@ -4,9 +4,7 @@
 #include "chain/colours.h"
 #include "chain/notices.h"
 #include "finish/finish_picture.h"
-#include "finish/lens_check.h"
 #include "harness/tool.h"
-#include "io/camera/camera_header.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
 #include "options/finish_options.h"
@@ -37,10 +35,8 @@ FlatFile read(const std::string &path, const FinishCommand &options, const ToolC
 FlatFile read_render(const std::string &path, const FlatFile &gathered, const FinishCommand &options,
                      const ToolContext &tool) {
     FlatFile file = read(path, options, tool);
-    if (!same_chromaticities(gathered.header, file.header)) {
-        tool.tell()({NoticeKind::converted, path, {options.gathered}});
-        to_space_of(options.colour, gathered.header, file.header, file.image);
-    }
+    to_space_of(tool.tell(), options.colour, {gathered.header, options.gathered}, {file.header, path},
+                file.image);
     return file;
 }
 
@@ -60,13 +56,9 @@ TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<doub
                    const FlatFile &gathered, const FinishCommand &options, const ToolContext &tool,
                    void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered.image);
-    Camera lens = read_camera(gathered.header);
-    if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
     for (std::size_t k = 0; k < paths.size(); ++k) {
         FlatFile file = read_render(paths[k], gathered, options, tool);
-        if (const auto other = lens_differences(lens, read_camera(file.header)); !other.empty())
-            warn(tool, fmt::format("{}: another lens or camera than that of the gathered picture: {}",
-                                   paths[k], fmt::join(other, "; ")));
+        tell_other_lens(tool.tell(), gathered.header, file.header, paths[k]);
         (halves.*add)({paths[k], std::move(file.image), samples[k]});
     }
     return halves;

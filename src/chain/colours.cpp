@@ -136,11 +136,13 @@ bool same_chromaticities(const Imf::Header &a, const Imf::Header &b) {
     return !stated || same_chromaticities(Imf::chromaticities(a), Imf::chromaticities(b));
 }
 
-void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
-                 Image &image) {
-    if (same_chromaticities(wanted, header)) return;
+void to_space_of(const Tell &tell, const ColourOptions &options, const NamedHeader &wanted,
+                 const NamedHeader &stated, Image &image) {
+    if (same_chromaticities(wanted.header, stated.header)) return;
+    tell({NoticeKind::converted, stated.name, {wanted.name}});
     const ColourConfig config(options.config);
-    transform_colours(config.between(space_of(config, header), space_of(config, wanted)), image);
+    transform_colours(config.between(space_of(config, stated.header), space_of(config, wanted.header)),
+                      image);
 }
 
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {

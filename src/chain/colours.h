@@ -35,9 +35,15 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
 Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Image &image);
 
-// Makes linear colours, in the space that their header states, those of the space that another header states.
-void to_space_of(const ColourOptions &options, const Imf::Header &wanted, const Imf::Header &header,
-                 Image &image);
+struct NamedHeader {
+    const Imf::Header &header;
+    std::string name; // of the file, for messages
+};
+
+// Makes linear colours, in the space that their header states, those of the space that another header states, and says so
+// if the two differ.
+void to_space_of(const Tell &tell, const ColourOptions &options, const NamedHeader &wanted,
+                 const NamedHeader &stated, Image &image);
 
 // Whether two headers state the same chromaticities, as far as headers round them, or neither states any.
 bool same_chromaticities(const Imf::Header &a, const Imf::Header &b);

@@ -2,11 +2,14 @@
 
 #include "base/grid.h"
 #include "dof/border_reach.h"
+#include "finish/lens_check.h"
+#include "io/camera/camera_header.h"
 #include "io/files/file_stream.h"
 #include "view/flat_pixels.h"
 
 #include <fmt/args.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -185,6 +188,17 @@ void tell_camera(const Tell &tell, const std::string &path, const Camera &camera
 void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings) {
     for (const std::string &warning : warnings)
         tell({.kind = NoticeKind::picture_warning, .values = {warning}});
+}
+
+void tell_other_lens(const Tell &tell, const Imf::Header &gathered, const Imf::Header &render,
+                     const std::string &path) {
+    Camera lens = read_camera(gathered);
+    if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
+    if (const auto other = lens_differences(lens, read_camera(render)); !other.empty())
+        tell({NoticeKind::file_warning,
+              display_name(path),
+              {fmt::format("another lens or camera than that of the gathered picture: {}",
+                           fmt::join(other, "; "))}});
 }
 
 void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,

@@ -102,6 +102,10 @@ void tell_camera(const Tell &tell, const std::string &path, const Camera &camera
 // The findings of checks in pictures (deep/checks/view_warnings.h).
 void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings);
 
+// Warns if the headers name another lens or camera for a render than for the gathered picture (finish/lens_check.h).
+void tell_other_lens(const Tell &tell, const Imf::Header &gathered, const Imf::Header &render,
+                     const std::string &path);
+
 // How much overscan the blur needs, in pixels of `across` sub-pixels. It warns if there is too little and a light at
 // the border would have its disc cut.
 void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,

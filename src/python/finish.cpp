@@ -57,12 +57,14 @@ void check_count(const char *name, std::size_t count, std::size_t rays) {
 
 // `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector<double> &samples,
-                   const PictureObject &gathered, void (TwoHalves::*add)(const Render &)) {
+                   const PictureObject &gathered, const Tell &tell, void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered.image);
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         Image image = pictures[k]->image;
-        to_space_of({}, gathered.header, pictures[k]->header, image);
-        (halves.*add)({fmt::format("{}[{}]", name, k), std::move(image), samples[k]});
+        const NamedHeader render{pictures[k]->header, fmt::format("{}[{}]", name, k)};
+        to_space_of(tell, {}, {gathered.header, "gathered"}, render, image);
+        tell_other_lens(tell, gathered.header, render.header, render.name);
+        (halves.*add)({render.name, std::move(image), samples[k]});
     }
     return halves;
 }
@@ -110,13 +112,14 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     const auto around = frames_of(keywords.take("around"), renders.size());
     const py::object progress = keywords.take("progress");
     keywords.done();
-    FinishedPicture made = job<FinishedPicture>(progress, [&](Progress &said) {
-        PictureToFinish picture{in.image, added_up("rays", renders, samples, in, &TwoHalves::add_noisy)};
+    FinishedPicture made = told_job<FinishedPicture>(progress, [&](Progress &said, const Tell &tell) {
+        PictureToFinish picture{in.image,
+                                added_up("rays", renders, samples, in, tell, &TwoHalves::add_noisy)};
         if (!denoised.empty())
-            picture.denoised.push_back(added_up("denoised", denoised, samples, in, &TwoHalves::add));
+            picture.denoised.push_back(added_up("denoised", denoised, samples, in, tell, &TwoHalves::add));
         for (const auto &[other, of_other] : around)
             picture.around.push_back(
-                {other->image, added_up("around", of_other, samples, in, &TwoHalves::add_noisy)});
+                {other->image, added_up("around", of_other, samples, in, tell, &TwoHalves::add_noisy)});
         return finish_picture(std::move(picture), said);
     });
     for (const std::string &text : made.mistakes.warnings()) warn(text);

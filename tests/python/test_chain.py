@@ -361,6 +361,13 @@ def test_finish(clustered, names, tool, tmp_path):
     assert not numpy.array_equal(unequal["picture"].pixels, finished["picture"].pixels)
     more = sparselens.finish(gathered, rays, around=[(gathered, rays[::-1])])
     assert more["mse"] < finished["mse"]
+    tool("dof-gather", clustered, "--output-colorspace", "ACEScg", "-d", "float", "-o", tmp_path / "aces.exr")
+    tool("dof-finish", tmp_path / "aces.exr", *files[1:], "-o", tmp_path / "final.exr")
+    with pytest.warns(UserWarning, match=r"rays\[1\]: its colours are in another space than those of gathered"):
+        converted = sparselens.finish(sparselens.open_picture(tmp_path / "aces.exr"), rays)
+    assert numpy.array_equal(converted["picture"].pixels, sparselens.open_picture(tmp_path / "final.exr").pixels)
+    with pytest.warns(UserWarning, match=r"rays\[0\]: another lens or camera .*: focus at"):
+        sparselens.finish(sparselens.gather(sparselens.open_ldi(clustered), focus_distance=2), rays)
     with pytest.raises(sparselens.UsageError, match="around: 1 for 2"):
         sparselens.finish(gathered, rays, around=[(gathered, rays[:1])])
     with pytest.raises(TypeError, match="around"):
