@@ -136,7 +136,10 @@ DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer) 
         denoised.image.values.insert(denoised.image.values.end(), from.begin(), from.end());
         std::ranges::copy(both.image.plane(noisy), from.begin());
     }
-    std::erase_if(kept, [&](const Channel &channel) { return channel.name.starts_with(noisy_layer + "."); });
+    const std::string guides = noisy_layer.substr(0, noisy_layer.rfind('.') + 1) + "Denoising "; // of Cycles
+    std::erase_if(kept, [&](const Channel &channel) {
+        return channel.name.starts_with(noisy_layer + ".") || channel.name.starts_with(guides);
+    });
     PackedView parted(std::move(both));
     parted.samples.keep_channels(kept);
     view = std::move(parted);

@@ -20,8 +20,8 @@ struct DenoisedPicture {
 };
 
 // For files that hold both, like those of Cycles: returns the view's colours as the denoised ones, and gives the view
-// the colours of the layer `noisy_layer`, whose channels it loses. Throws Error, naming the view, if it lacks the
-// layer, has no colours or is deep.
+// the colours of the layer `noisy_layer`, whose channels it loses, as it does the denoiser's guides beside them. Throws
+// Error, naming the view, if it lacks the layer, has no colours or is deep.
 DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer);
 
 // Changes the colours of the views, which must be placed, with the centre view first. Layers of light that a denoised

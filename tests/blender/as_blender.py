@@ -1,7 +1,6 @@
 """Replaces `blender -b` by the module bpy from PyPI, so that the tests of share/blender run in other releases:
 
-    python3.11 -m venv env && env/bin/pip install bpy==4.2.0
-    tests/blender/bpy.sh env/bin/python BIN_DIR pictures.sh
+    tests/blender/bpy.sh 4.2.0 BIN_DIR pictures.sh
 
 Accepts the options that those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in order, and as the
 last one --command sparselens, for which it enables the installed extension.

@@ -297,19 +297,6 @@ press lens.blend film animate "$PWD/film/shot"
 grep -q "of 6 views rendered and 0 kept" said || fail "without Keep Views: $(tail -n 5 said)"
 echo "Render Animation: the scene's output, and no view twice"
 
-# Denoised views also hold what they were before, and ldi-warp takes both.
-if blender -b --python-expr 'import _cycles, sys; sys.exit(0 if getattr(_cycles, "with_openimagedenoise", True) else 1)' >said 2>&1; then
-    quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; bpy.context.scene.cycles.use_denoising = True" \
-        -P "$views" -- --picture --samples 4 --views 2 --finish 4 -o "$PWD/smooth/a.exr"
-    ldi-warp smooth/views/{center,view_0,view_1}.exr --noisy 'ViewLayer.Noisy Image' -o hand.ldi.exr 2>log || fail "$(cat log)"
-    dof-gather hand.ldi.exr -o hand.exr --overscan crop 2>log || fail "$(cat log)"
-    same smooth/views/gathered.exr "denoised views"
-    ! exrheader smooth/views/rays_1.exr | grep Noisy >/dev/null || fail "rays are not denoised"
-    echo "denoised views: with their noise"
-else
-    echo "skipped: denoised views: this Blender has no denoiser"
-fi
-
 # Other formats use Blender: its output settings and its colours. Its Standard view gives dof-gather's own pictures,
 # rounded.
 quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; scene = bpy.context.scene

@@ -115,19 +115,21 @@ TEST(DenoisedViews, APictureOfBothIsParted) {
     const View noisy = five_views(scene(0.2f), windows, radius)[0],
                clean = five_views(scene(0), windows, radius)[0];
     View both = clean;
-    for (const char *name : {"Noisy Image.R", "Noisy Image.G", "Noisy Image.B", "Noisy Image.A"})
+    for (const char *name : {"L.Noisy Image.R", "L.Noisy Image.G", "L.Noisy Image.B", "L.Noisy Image.A"})
         both.image.channels.push_back({.name = name});
     const auto of_noisy = std::span(noisy.image.values);
     both.image.values.insert(both.image.values.end(), of_noisy.begin(), of_noisy.end());
+    both.image.channels.push_back({.name = "L.Denoising Depth.Z"}); // a guide of Cycles' denoiser
+    both.image.values.resize(both.image.values.size() + windows.grid().size());
     PackedView view{View(both)};
-    const DenoisedPicture denoised = part_denoised(view, "Noisy Image");
+    const DenoisedPicture denoised = part_denoised(view, "L.Noisy Image");
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_TRUE(std::ranges::equal(denoised.image.plane(c), clean.image.plane(c))) << c;
     const View parted = unpacked(view);
     EXPECT_EQ(parted.image.channels, clean.image.channels);
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_TRUE(std::ranges::equal(parted.image.plane(c), noisy.image.plane(c))) << c;
-    EXPECT_THROW(part_denoised(view, "Noisy Image"), Error); // it was removed
+    EXPECT_THROW(part_denoised(view, "L.Noisy Image"), Error); // it was removed
 }
 
 void expect_error(const std::vector<View> &views, const std::vector<DenoisedPicture> &denoised,

@@ -63,5 +63,7 @@ def group_of(scene):
         if several:  # the file's number is the frame's
             node.frame_start, node.frame_duration = 1, scene.frame_end
             node.use_auto_refresh = True
-        group.links.new(node.outputs["Image"], out.inputs[name])
+        colours = (node.outputs.get("Image")
+                   or node.outputs["Combined"])  # of a file with passes
+        group.links.new(colours, out.inputs[name])
     return group

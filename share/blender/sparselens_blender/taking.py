@@ -126,7 +126,8 @@ class Taking:
 
     def show(self, eye, path, size):
         image = image_of(self.scene, eye, path)
-        if size and tuple(image.size) != tuple(size):
+        # An image with passes has no size.
+        if size and tuple(image.size) not in ((0, 0), tuple(size)):
             image.scale(*size)
         show(image)
         self.images = [image.name for image in bpy.data.images

@@ -23,14 +23,15 @@ namespace sparselens {
 
 namespace {
 
-// Attributes that describe how one file stores its pixels; they must not be copied into another file.
+// Attributes that describe how one file stores its pixels; they must not be copied into another file. By
+// BlenderMultiChannel, Blender would look for layers in a picture that has none.
 bool describes_storage(const std::string &name) {
     static constexpr std::array names{
         "channels",         "chunkCount",    "compression", "dataWindow",
         "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
         "pixelAspectRatio", "preview",       "tiles",       "type",
         "version"};
-    return is_among(names, name) || name == kept_names_attribute;
+    return is_among(names, name) || name == kept_names_attribute || name == "BlenderMultiChannel";
 }
 
 } // namespace
