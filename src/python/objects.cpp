@@ -119,7 +119,14 @@ void bind_camera(py::module_ &module) {
                 for (const Imath::V2d &p : camera.lens_points) points.append(py::make_tuple(p.x, p.y));
                 return points;
             },
-            doc::Camera::lens_points);
+            doc::Camera::lens_points)
+        .def("__repr__", [](const py::object &camera) {
+            std::string text = "<sparselens.Camera";
+            for (const char *name : {"focal_length", "sensor_width", "fstop", "focus_distance", "scene_unit"})
+                if (const py::object value = camera.attr(name); !value.is_none())
+                    text += fmt::format(" {}={}", name, std::string(py::repr(value)));
+            return text + ">";
+        });
 }
 
 void bind_view(py::module_ &module) {

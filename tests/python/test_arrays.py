@@ -1,4 +1,6 @@
 """numpy arrays: their contents, the memory they share, and which arrays are refused."""
+import re
+
 import numpy
 import pytest
 import sparselens
@@ -59,6 +61,7 @@ def test_ldi_attributes(clustered):
 
 def test_numpy_views_are_as_files(views, warped):
     camera = views[0].camera
+    assert re.match(r"<sparselens.Camera focal_length=[0-9.]+ sensor_width=36(.0)? fstop=.* focus_distance=", repr(camera))
     lens = {name: getattr(camera, name) for name in LENS}
     placed = []
     for view, position in zip(views, camera_points(views)):

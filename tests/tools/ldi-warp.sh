@@ -193,6 +193,9 @@ for wrong in -0.06,0 0.024,0 0.12,0 0,0; do
     exits 0 "$warp" views/center.exr --view $wrong views/view_0.exr -o x.exr
     said "warning: views/view_0.exr: disagrees .* stated position $wrong; it would agree at 0\.0(4[5-9]|[56]|7)[0-9]*,-?0(\.0[01]?[0-9]*)? \(--view .* views/view_0.exr\)\$"
 done
+"$bin/dof-trace" fence --size 200x112 --spp 2 -o wide
+exits 0 "$warp" --focal-length 50 wide/center.exr wide/view_?.exr -o x.exr # it is 36
+[ "$(grep -c 'disagrees' stderr)" -ge 3 ] && tail -n 1 stderr | grep -Eq 'warning: [34] views would agree at about 0\.[67].* or the focal length is about 3[0-9], not 50 \(--focal-length 3[0-9]\)$' || fail "not said: the focal length ($(cat stderr))"
 "$bin/dof-trace" fence --size 96x54 --spp 1 --views 0 -o again
 exits 0 "$warp" views/center.exr --view 0.06,0 again/center.exr -o x.exr
 said 'warning: again/center.exr: disagrees .* stated position 0.06,0; it would agree at 0,0 '

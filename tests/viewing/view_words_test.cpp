@@ -57,6 +57,13 @@ TEST(ViewWords, AFileOfExrHasNoDisplay) {
     EXPECT_EQ(words_for(words, "b.exr"), (Words{"a.exr", "--fstop", "2"}));
 }
 
+TEST(ViewWords, ACommandLeavesOutTheUsualQuality) {
+    EXPECT_EQ(words_for({"a.exr", "--quality", "normal", "--fstop", "2"}, "b.png"),
+              (Words{"a.exr", "--fstop", "2"}));
+    for (const Words &words : {Words{"a.exr", "--quality", "final"}, Words{"normal", "--quality"}})
+        EXPECT_EQ(words_for(words, "b.png"), words);
+}
+
 TEST(ViewWords, AreCommandsElsewhere) {
     const Words words{"it's.exr",
                       "--fstop",

@@ -57,7 +57,7 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
 void add_finish_options(CLI::App &app, FinishCommand &options) {
     add_input_options(app, options);
     app.add_option("-o,--output", options.output,
-                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
+                   fmt::format("Picture to write ({}); - for standard output", picture_formats()))
         ->type_name("OUT.exr")
         ->required();
     const std::map<std::string, ShowFinished> shows{{"error", ShowFinished::error},

@@ -63,7 +63,7 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
 void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_picture_making_options(app, options);
     app.add_option("-o,--output", options.output,
-                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
+                   fmt::format("Picture to write ({}); - for standard output", picture_formats()))
         ->type_name("OUT.exr")
         ->required()
         ->check(output_name(OutputKind::picture));

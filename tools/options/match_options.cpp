@@ -44,8 +44,9 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
     app.add_option("-o,--output", options.output,
                    "Keys to write (JSON), for --focus-distance @KEYS.json and --fstop @KEYS.json")
         ->type_name("KEYS.json");
-    app.add_option("--show", options.show,
-                   "Also write the gathered picture beside the plate, in grey (EXR, PNG, JPEG or TIFF)")
+    app.add_option(
+           "--show", options.show,
+           fmt::format("Also write the gathered picture beside the plate, in grey ({})", picture_formats()))
         ->type_name("PICTURE")
         ->check(output_name(OutputKind::picture));
     app.add_flag("--json", options.json, "Print JSON instead of a table");

@@ -227,7 +227,10 @@ GatherCommand command_of(const Words &words, const std::string &output) {
     return options;
 }
 
-Words words_for(const Words &words, const std::string &output) {
+Words words_for(const Words &given, const std::string &output) {
+    const auto quality = std::ranges::find(given, "--quality");
+    const bool is_usual = given.end() - quality > 1 && quality[1] == "normal";
+    const Words words = is_usual ? words_without(given, "quality") : given;
     if (!output.ends_with(".exr")) return words;
     return without(words,
                    [](const std::string &name) { return name == "--display" || name == "--view-transform"; });

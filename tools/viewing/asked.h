@@ -57,8 +57,9 @@ Words words_without(const Words &given, const std::string &option);
 // Throws UsageError for an invalid command line.
 GatherCommand command_of(const Words &words, const std::string &output = "picture.png");
 
-// The words without those that do not apply to the output: an EXR file has no display.
-Words words_for(const Words &words, const std::string &output);
+// The words without the quality that is usual, and without those that do not apply to the output: an EXR file has no
+// display.
+Words words_for(const Words &given, const std::string &output);
 
 // The command that makes the picture, for a shell, or as a script for Python.
 std::string shell_command(const Words &words, const std::string &output);

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace sparselens {
 
@@ -76,21 +75,47 @@ std::string said_of_copy(std::span<const PackedView> views, std::size_t i, doubl
     return {};
 }
 
-// The warning for a view at a wrong position; empty if its position is right.
-std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
+// The warning for a view at a wrong position, and the share of its stated distance from the centre at which it would
+// agree; empty and 0 if its position is right.
+struct Pose {
+    std::string said;
+    double share = 0;
+};
+
+Pose pose_of(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
     const PackedView &view = views[i];
     if (const auto turned = turned_by(views[0], view, focal_px, reach))
-        return fmt::format(
+        return {fmt::format(
             "{}: disagrees with the centre view, and would agree if it were turned by {:.2g} degrees to the "
             "right and {:.2g} up (or its lens shifted so): render all views with parallel axes, not aimed "
             "at the focus",
-            view.name, turned->x, turned->y);
-    if (const auto better = better_position(views[0], view, focal_px, reach))
-        return fmt::format(
-            "{}: disagrees with the centre view at its stated position {}; it would agree at {} "
-            "(`view={} {}`)",
-            view.name, text(view.position), text(*better), text(*better), view.name);
-    return {};
+            view.name, turned->x, turned->y)};
+    const auto better = better_position(views[0], view, focal_px, reach);
+    if (!better) return {};
+    const double stated = view.position.length2();
+    return {fmt::format("{}: disagrees with the centre view at its stated position {}; it would agree at {} "
+                        "(`view={} {}`)",
+                        view.name, text(view.position), text(*better), text(*better), view.name),
+            stated > 0 ? view.position.dot(*better) / stated : 0};
+}
+
+// Says which focal length would let most views agree where they are said to stand.
+void say_of_focal_length(std::span<const Pose> poses, const Camera &camera, Warnings &said) {
+    std::vector<double> shares;
+    for (const Pose &pose : poses)
+        if (pose.share > 0) shares.push_back(pose.share);
+    std::ranges::sort(shares);
+    if (shares.size() < 3 || !camera.focal_length_mm) return;
+    const double usual = shares[shares.size() / 2];
+    constexpr double alike = 0.15; // the positions that are tried are as far apart
+    const auto like_it = [&](double share) { return std::abs(share - usual) <= alike * usual; };
+    const auto count = std::ranges::count_if(shares, like_it);
+    const double focal_length = usual * *camera.focal_length_mm;
+    if (count >= 3)
+        said.push_back(
+            fmt::format("{} views would agree at about {:.2g} times their stated positions: or the "
+                        "focal length is about {:.2g}, not {:.4g} (`focal_length={:.2g}`)",
+                        count, usual, focal_length, *camera.focal_length_mm, focal_length));
 }
 
 } // namespace
@@ -162,18 +187,20 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
     for (const PackedView &view : views) reach = std::max(reach, view.position.length());
     const std::vector<std::size_t> beyond = views_beyond_lens(views, radius); // their pixels are not tested
     Warnings said;
-    std::vector<std::string> poses(views.size());
+    std::vector<Pose> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {
         if (i == 0)
             said = first_warnings(views[0], facts);
-        else if (poses[i] = said_of_copy(views, i, focal_px);
-                 poses[i].empty() && !std::ranges::binary_search(beyond, i))
-            poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
+        else if (poses[i].said = said_of_copy(views, i, focal_px);
+                 poses[i].said.empty() && !std::ranges::binary_search(beyond, i))
+            poses[i] = pose_of(views, i, focal_px, reach > 0 ? reach : radius);
     });
     say_of_flat_first(views, said);
     if (beyond.empty()) say_of_first(views, radius, said);
     say_of_distances(views, beyond, radius, said);
-    std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });
+    for (const Pose &pose : poses)
+        if (!pose.said.empty()) said.push_back(pose.said);
+    say_of_focal_length(poses, facts.camera, said);
     return said;
 }
 

@@ -159,17 +159,21 @@ bool is_pipe_or_device(const std::string &path) {
             !std::filesystem::is_directory(status));
 }
 
+constexpr std::array usual{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".dpx", ".hdr", ".tga", ".webp"};
+
 // The usual endings that the installed OpenImageIO writes.
 std::string endings() {
-    static constexpr std::array usual{"png", "jpg", "jpeg", "tif", "tiff",
-                                      "bmp", "dpx", "hdr",  "tga", "webp"};
     std::string list = ".exr";
     for (const char *ending : usual)
-        if (is_shown_picture(std::string("x.") + ending)) list += fmt::format(", .{}", ending);
+        if (is_shown_picture(std::string("x") + ending)) list += fmt::format(", {}", ending);
     return list;
 }
 
 } // namespace
+
+std::string picture_formats() {
+    return fmt::format("EXR, or what OpenImageIO writes of {}", fmt::join(usual, ", "));
+}
 
 std::string wrong_with_output(const std::string &path, OutputKind kind) {
     const std::string ending = lower_case(std::filesystem::path(path).extension().string());

@@ -42,6 +42,9 @@ enum class OutputKind {
     picture // EXR, or one of the formats for the screen
 };
 
+// What a picture may be, in words for help: all usual endings, because loading OpenImageIO takes long.
+std::string picture_formats();
+
 // Says why the name is wrong, with the list of endings; empty if it is right. `-`, pipes and devices need no ending.
 std::string wrong_with_output(const std::string &path, OutputKind kind);
 
