@@ -64,6 +64,9 @@ for wrong in "not-packed.tar.xz", "outside.tar.xz", "broken.tar.xz":
         raise SystemExit("took " + wrong)
     except RuntimeError as error:
         assert wrong in str(error) or "cannot be run" in str(error), error
+        assert str(error).strip().count("\n") == 0, error
+        if wrong == "not-packed.tar.xz":
+            assert "choose sparselens-VERSION-linux-x86_64.tar.xz" in str(error), error
 for version in "9.1", "9.2":
     assert bpy.ops.sparselens.install_tools(filepath="$PWD/sparselens-%s.tar.xz" % version) == {"FINISHED"}
     assert bpy.ops.sparselens.find_tools() == {"FINISHED"}

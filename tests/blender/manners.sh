@@ -21,7 +21,7 @@ exrheader fine/center.exr | grep -F 'ldi.supersample (type int): 2' >/dev/null |
 echo "sub-pixels: dof-gather's and dof-finish's bits, the scene unchanged"
 
 # Volumes in slices.
-press small.blend smoke set slices=3 refuse-render '--slices: no material of the scene has a volume'
+press small.blend smoke set slices=3 refuse-render '"Slices of Volumes": no material of the scene has a volume'
 press smoke.blend smoke set slices=3 render focus 3 take set finish=8 finish set layers="'veil'" refuse-render "no collection 'veil'"
 [ -s smoke/volume.exr ] || fail "no slices: $(ls smoke)"
 warp smoke/center.exr smoke/view_?.exr -o solids.ldi.exr

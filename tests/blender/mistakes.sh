@@ -2,6 +2,10 @@
 # Common mistakes in Blender, and the messages of the script and the tools about them. A few minutes.
 #   bash mistakes.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
+# shellcheck disable=SC2046
+in_blender -P "$source_dir/tests/blender/words.py" -- "$(dirname "$views")" $("$bin/dof-gather" --help | sed -nE 's/^  (-., ?)?--([a-z-]+).*/\2/p')
+echo "the panel's messages: name its fields"
+
 in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
 same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
 

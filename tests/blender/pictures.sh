@@ -34,7 +34,7 @@ same still/picture.exr "a lens file"
 press small.blend still set lens_looks.aperture="'$source_dir/share/lenses/mirror.exr'" focus 3 take
 by_hand still "" --focus-distance 3 --aperture "$source_dir/share/lenses/mirror.exr"
 same still/picture.exr "a picture of the aperture"
-press small.blend still set lens_looks.spherical=0.5 save "$PWD/looks.blend" refuse-finish "finishing: Blender's lens has no --spherical"
+press small.blend still set lens_looks.spherical=0.5 save "$PWD/looks.blend" refuse-finish "finishing: Blender's lens has no \"Soap bubbles\": remove"
 quietly blender --python-exit-code 1 -b looks.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/looked/a.exr"
 by_hand looked/views "" --spherical 0.5
 same looked/a.exr "the panel's looks on the command line"
@@ -92,7 +92,7 @@ finished_by_hand still "" still --focus-distance 3
 same still/picture.exr "Finish"
 if picture same still/gathered.exr still/picture.exr >found 2>&1; then fail "Finish changes nothing"; fi
 for half in 1 2; do exrheader still/rays_$half.exr | grep -Eq '^cycles\..*samples \(type string\): "4"' || fail "Finish: not 4 samples"; done
-press small.blend still set looks="'--cat-eye 0.7'" refuse-finish "finishing: Blender's lens has no --cat-eye"
+press small.blend still set looks="'--cat-eye 0.7'" refuse-finish "finishing: Blender's lens has no --cat-eye in \"Other Options\": remove"
 press small.blend still set looks="'--quality final'" finish
 echo "Finish: dof-finish's bits, the scene unchanged"
 
@@ -101,7 +101,7 @@ press small.blend still move refuse "camera 'Camera' has been moved or changed.*
 press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
 press small.blend still set views=3 refuse "view_2.exr is not there"
 press small.blend still set supersample=2 refuse "or the picture's size"
-press small.blend still set looks="'--spherical 7'" refuse "dof-gather: .*spherical.*"
+press small.blend still set looks="'--spherical 7'" refuse "dof-gather: --spherical in \"Other Options\": .*"
 missing='ldi-warp and dof-gather are not found, neither beside the add-on'
 PATH=${PATH#"$bin":} press small.blend still refuse "$missing" refuse-finish "$missing" refuse-animate "$missing"
 if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=24k tmpfs full 2>log; then
@@ -151,12 +151,24 @@ if (find_in x "$(dirname "$views")" /nowhere) 2>log; then fail "a chosen folder 
 grep -q "the folder '/nowhere' does not have" said || fail "a chosen folder without tools: $(tail -n 3 said)"
 echo "tools: found"
 
+# A tool that takes long tells how far it is, and one that crashes is said to.
+in_blender --python-expr "import sys; sys.path.insert(0, '$(dirname "$views")')
+from sparselens_blender.chain import Chain, ToolError
+Chain([['sh', '-c', 'echo dof-gather: 41% >&2; echo dof-gather: 42% >&2; sleep 3']]).wait()
+try:
+    Chain([['sh', '-c', 'echo dof-gather: 1% >&2; echo corrupted size >&2; kill -6 \$\$']]).wait()
+except ToolError as error:
+    print(error)"
+grep -q '^sparselens: dof-gather: 42%$' said || fail "no progress: $(tail -n 3 said)"
+grep -q '^sh crashed, which is a fault of sparselens: corrupted size$' said || fail "a crash: $(tail -n 3 said)"
+
 # One line for frames: keys of focus and camera. A second run after a kill renders the remaining views, and its pictures
 # are the same.
 variant small keys
 variant keys lens
 one_line=(blender --python-exit-code 1 -b lens.blend -P "$views" -- --picture --frames 1-3 --samples 4 --views 2)
 quietly "${one_line[@]}" -o "$PWD/whole/shot.####.exr"
+for frame in 1 2 3; do grep -q "^sparselens: frame $frame: making the picture of 3 views of 4 samples a pixel$" said || fail "not announced: frame $frame"; done
 grep -q "^sparselens: 3 pictures in $PWD/whole, of 9 views rendered and 0 kept in" said || fail "--picture: $(tail -n 5 said)"
 for frame in 1 2 3; do
     by_hand whole/views .000$frame

@@ -9,6 +9,7 @@ import bpy
 from .chain import Chain
 from .for_a_while import changed
 from .taking import ERRORS
+from .words import report
 
 
 at_work = []  # the operator on the timer; no other may begin meanwhile
@@ -60,7 +61,7 @@ class BitByBit:
         try:
             self.begin(context)
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         manager = context.window_manager
         self.timer = manager.event_timer_add(0.05, window=context.window)
@@ -85,7 +86,7 @@ class BitByBit:
             return {"CANCELLED"}
         except ERRORS as error:
             self.cancel(context)
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         except Exception:
             self.cancel(context)

@@ -1,5 +1,6 @@
 """Runs the tools one after the other, without blocking Blender."""
 
+import os
 import re
 import subprocess
 import tempfile
@@ -34,10 +35,13 @@ class Once:
         self.more = 0
 
 
+PERCENT = re.compile(r"[\w-]+: \d+%")
+
+
 class Chain:
-    """Commands that run one after the other, each after the success of the one
-    before. Their outputs appear whole or not at all, so the chain can be
-    stopped at any time."""
+    """Commands of sparselens that run one after the other, each after the
+    success of the one before. Their outputs appear whole or not at all, so the
+    chain can be stopped at any time."""
 
     def __init__(self, commands):
         self.left = list(commands)
@@ -61,8 +65,8 @@ class Chain:
         self.said = tempfile.TemporaryFile()
         try:
             self.process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                stderr=self.said)
+                command + ["--progress", "plain"], stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL, stderr=self.said)
         except OSError as error:
             self.said.close()
             raise ToolError("%s cannot be run: %s"
@@ -73,18 +77,40 @@ class Chain:
         process, self.process = self.process, None
         with self.said as said:
             said.seek(0)
-            lines = said.read().decode(errors="replace").splitlines()
+            lines = [line for line
+                     in said.read().decode(errors="replace").splitlines()
+                     if not PERCENT.fullmatch(line)]
         self.warnings += [line for line in lines if ": warning: " in line]
         if process.returncode != 0:
             self.left = []
             errors = [line for line in lines if ": warning: " not in line]
+            if process.returncode < 0 and process.returncode != -9:  # memory
+                errors = ["%s crashed, which is a fault of sparselens: %s" % (
+                    os.path.basename(process.args[0]),
+                    " ".join(errors) or "signal %d" % -process.returncode)]
             raise ToolError("\n".join(errors) or "%s ended with %d" % (
                 process.args[0], process.returncode))
 
+    def progress(self):
+        """How far the running command is, such as "dof-gather: 42%". It shares
+        its end in the file, which must stay."""
+        if self.process is None or not hasattr(os, "pread"):  # Windows
+            return ""
+        file = self.said.fileno()
+        said = os.pread(file, os.fstat(file).st_size, 0).decode(
+            errors="replace")
+        return (PERCENT.findall(said) or [""])[-1]
+
     def wait(self):
+        """Prints the progress of long commands."""
+        told = ""
         while not self.poll():
-            if self.process:
-                self.process.wait()
+            try:
+                self.process.wait(timeout=2)
+            except subprocess.TimeoutExpired:
+                if self.progress() != told:
+                    told = self.progress()
+                    print("sparselens:", told, flush=True)
 
     def stop(self):
         """Ends the running command, and begins no more."""

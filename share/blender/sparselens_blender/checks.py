@@ -70,5 +70,5 @@ def check_scene(scene, moments=1):
         warnings.append(found + ", whose edges come out wrong, because each "
                         "view looks past it elsewhere: render it and the rest "
                         "apart, without a holdout, and let dof-gather hold "
-                        "one out by the other (docs/comp.md)")
+                        "one out by the other (--holdout; docs/comp.md)")
     return warnings

@@ -19,6 +19,7 @@ from .taking import (
     ERRORS, Taking, chosen_folder, editors, lens_state, start_following,
     stop_following)
 from .views import counted, views_of_lens
+from .words import report
 
 
 def frames_of(scene):
@@ -46,14 +47,14 @@ class Renders(BitByBit):
     holds = True
 
     def warn(self, text):
-        self.report({"WARNING"}, text)
+        report(self, "WARNING", text)
 
     def execute(self, context):
         try:
             self.prepare(context)
             render_now(context.scene, self.steps)
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         self.done(context)
         return {"FINISHED"}
@@ -84,7 +85,7 @@ class Renders(BitByBit):
 
 def say_warnings(operator, taken):
     """Reports the warnings of the pictures, and which images show them."""
-    say = Once(lambda text: operator.report({"WARNING"}, text))
+    say = Once(lambda text: report(operator, "WARNING", text))
     for text in taken.warnings:
         say(text)
     say.end()
@@ -93,7 +94,7 @@ def say_warnings(operator, taken):
 
 
 class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
-    """Render the centre view and the views from the rim of the lens"""
+    """Render the centre view and the views from the rim of the lens, each with the samples of the scene: 16 are few for hair, take 64 or more"""
 
     bl_idname = "sparselens.render_views"
     bl_label = "Render Views"
@@ -161,7 +162,7 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
             self.taking = Taking(context.scene, draft=False)
             self.taking.wait()
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         self.say_warnings()
         return {"FINISHED"}
@@ -174,8 +175,8 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
 
     def tick(self, context):
         done = self.taking.tick()
-        context.workspace.status_text_set("sparselens: %s; Esc stops"
-                                          % self.taking.words)
+        context.workspace.status_text_set("sparselens: %s; Esc stops" % (
+            self.taking.chain.progress() or self.taking.words))
         return done
 
     def end(self, context):
@@ -221,7 +222,7 @@ class SPARSELENS_OT_make_nodes(bpy.types.Operator):
         try:
             group = nodes.group_of(context.scene)
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         self.report({"INFO"}, "In the compositor: Add > Group > %s"
                     % group.name)

@@ -15,6 +15,7 @@ from .operators import (
 from .shots import picture_size
 from .tool_operators import (
     SPARSELENS_OT_find_tools, SPARSELENS_OT_install_tools)
+from .words import in_panel
 
 
 SPARSELENS_Looks = type("SPARSELENS_Looks", (bpy.types.PropertyGroup,),
@@ -160,7 +161,7 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         layout.prop(settings, "live")
         layout.operator("sparselens.take_picture")
         if taking.follower:
-            say(layout, taking.follower.message, context)
+            say(layout, in_panel(taking.follower.message), context)
         layout.prop(settings, "finish")
         layout.operator("sparselens.finish")
         layout.prop(settings, "finish_frames")

@@ -8,7 +8,7 @@ import bpy
 
 from . import pictures, tools
 from .chain import Chain, Once
-from .for_a_while import other_files
+from .for_a_while import other_files, samples_of
 from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
 from .manner import Count
@@ -125,6 +125,9 @@ class Pictures:
                     self.scene, self.manner.shutter, self.views)),
             *([pictures.finish_command(self.tools, files, made)]
               if self.options.finish else [])])
+        print("sparselens: frame %d: making the picture of %s%s" % (
+            frame, counted(len(files.each_of("")), "view"),
+            self.parts_in_words()), flush=True)
         yield chain
         for text in chain.warnings:
             self.say(text.split(": warning: ", 1)[1])
@@ -132,6 +135,16 @@ class Pictures:
             self.save(made, out)
         self.made += 1
         print("sparselens: frame %d: %s" % (frame, out), flush=True)
+
+    def parts_in_words(self):
+        """What makes a picture take longer, and the number of samples."""
+        manner = self.manner
+        return "".join([
+            " of %d samples a pixel" % samples_of(self.scene),
+            manner.shutter > 1 and ", %d moments" % manner.shutter or "",
+            manner.slices and ", volumes in %d slices" % manner.slices or "",
+            manner.layers and ", %s" % counted(
+                len(manner.layers), "see-through layer") or ""])
 
     def warn_of_kept(self):
         """Warns if the scene's file is newer than kept views: the scene may

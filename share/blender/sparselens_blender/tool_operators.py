@@ -4,6 +4,7 @@ import bpy
 
 from . import tools, unpack
 from .taking import ERRORS, chosen_folder
+from .words import report
 
 
 class SPARSELENS_OT_find_tools(bpy.types.Operator):
@@ -17,7 +18,7 @@ class SPARSELENS_OT_find_tools(bpy.types.Operator):
             folder, where = tools.find(chosen_folder())
             text = "%s, %s: %s" % (tools.version(folder), where, folder)
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         self.report({"INFO"}, text)
         return {"FINISHED"}
@@ -43,7 +44,7 @@ class SPARSELENS_OT_install_tools(bpy.types.Operator):
                                    tools.folder_of_archives())
             text = "%s, installed: %s" % (tools.version(folder), folder)
         except ERRORS as error:
-            self.report({"ERROR"}, str(error))
+            report(self, "ERROR", error)
             return {"CANCELLED"}
         self.report({"INFO"}, text)
         return {"FINISHED"}

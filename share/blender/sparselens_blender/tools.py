@@ -94,7 +94,7 @@ def find(chosen=""):
     raise NoTool("ldi-warp and dof-gather are not found, neither beside the "
                  "add-on nor in pip's package nor on the PATH: press Install "
                  "Tools in the add-on's preferences, or name their folder "
-                 "there, or by --tools")
+                 "there (or on the command line by --tools)")
 
 
 def tool(folder, name):

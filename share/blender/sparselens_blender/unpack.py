@@ -1,6 +1,7 @@
 """Unpacks the archive of the tools, which tools/bundle.sh makes, for the
 add-on."""
 
+import lzma
 import os
 import re
 import shutil
@@ -44,7 +45,8 @@ def unpack(path, folder):
                 os.replace(os.path.join(made, top), os.path.join(folder, top))
             finally:
                 shutil.rmtree(made)
-    except (tarfile.TarError, EOFError) as error:
-        raise ValueError("%s is not an archive of sparselens' tools: %s"
-                         % (path, error)) from error
+    except (tarfile.TarError, EOFError, lzma.LZMAError) as error:
+        raise ValueError("%s is not an archive, or not a whole one: choose "
+                         "sparselens-VERSION-linux-x86_64.tar.xz"
+                         % path) from error
     return os.path.join(folder, top, "bin")
