@@ -1,5 +1,6 @@
 // dof-match: finds the focus distance and the f-stop of a filmed plate.
 #include "base/error.h"
+#include "chain/colours.h"
 #include "chain/match_lens.h"
 #include "chain/notices.h"
 #include "harness/commands/frames.h"
@@ -62,6 +63,11 @@ public:
         return cache_.load(request, tool_.tell());
     }
     Image plate(const FrameFiles &frame) {
+        if (is_shown_picture(frame.plate)) {
+            Image image = read_shown_picture(frame.plate);
+            if (!holds_linear_light(frame.plate)) to_linear(tool_.tell(), {}, frame.plate, {}, image);
+            return image;
+        }
         FlatFile plate = read_flat_exr(frame.plate);
         tell_reading(tool_.tell(), frame.plate, plate.notes, plate.warnings);
         return std::move(plate.image);

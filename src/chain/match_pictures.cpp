@@ -6,6 +6,7 @@
 #include "deep/flatten.h"
 #include "deep/proxy.h"
 #include "lens/thin_lens.h"
+#include "match/measure_lens.h"
 #include "match/tone_curve.h"
 #include "match/tuning.h"
 #include "view/resolve_lens.h"
@@ -131,16 +132,31 @@ void Reduced::find_usable() {
 }
 
 void Reduced::find_depths() {
-    std::vector<double> depths;
     for (std::size_t i = 0; i < pictures.usable.size(); ++i)
         if (const float z = front_depth(ldi_, pictures.plate.grid.pixel(i)); pictures.usable[i] && z > 0)
-            depths.push_back(perceptive_depth(depth_scale(), double(z)));
-    if (depths.empty()) throw UsageError("`region` contains no pixel that the LDI covers; give another");
-    std::ranges::sort(depths);
-    const auto at = [&](double share) { return depths[std::size_t(share * double(depths.size() - 1))]; };
+            depths_.push_back(perceptive_depth(depth_scale(), double(z)));
+    if (depths_.empty()) throw UsageError("`region` contains no pixel that the LDI covers; give another");
+    std::ranges::sort(depths_);
+    const auto at = [&](double share) { return depths_[std::size_t(share * double(depths_.size() - 1))]; };
     pictures.far = at(0.02);
     pictures.near = at(0.98);
     pictures.middle = (pictures.far + pictures.near) / 2;
+}
+
+BlurGuess Reduced::blur_error(const BlurGuess &guess, const KnownLens &known) const {
+    BlockFit all{.pixels = 1, .left = 1};
+    for (const double depth : depths_) {
+        const double from_middle = depth - pictures.middle, coc = guess.coc - guess.scale * from_middle;
+        // The variance of a disc is a quarter of its squared radius. Changes: the CoC, the scale, the softness.
+        const std::array by{coc / 2, known.focus ? coc * coc / (2 * guess.scale) : -coc * from_middle / 2,
+                            1.0};
+        for (std::size_t i = 0; i < by.size(); ++i) {
+            all.pull[i] += by[i] * MatchTuning::small_blur_error / (1 + coc * coc);
+            for (std::size_t k = 0; k < by.size(); ++k) all.stiffness[i][k] += by[i] * by[k];
+        }
+    }
+    const Changes found = solve_blocks({all}, {!known.focus, !known.scale, true}).by;
+    return {found[0], found[1], found[2]};
 }
 
 Rgb Reduced::gather(const ApertureShape &shape, double coc, double scale, bool exactly) const {
@@ -168,15 +184,19 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     const auto &c = fit.covariance;
     const double focus_variance =
         by_coc * by_coc * c.coc + 2 * by_coc * by_scale * c.both + by_scale * by_scale * c.scale;
+    const BlurGuess blur = in.blur_error(fit.guess, known_lens(match, in));
+    const double focus_error = by_coc * blur.coc + by_scale * blur.scale;
     const auto coc_at = [middle = in.pictures.middle, coc = coc, scale = scale](double depth) {
         return std::abs(coc - scale * (depth - middle));
     };
     const double largest = std::max(coc_at(in.pictures.near), coc_at(in.pictures.far));
     of.largest_coc = in.by() * largest;
-    of.coc_deviation = in.by() * std::hypot(own(c.coc), error.coc_px);
-    of.focus_deviation = {own(focus_variance) / in.depth_scale(), error.coc_px / scale / in.depth_scale()};
-    of.radius_deviation = {own(c.scale / (scale * scale)),
-                           std::hypot(error.share, error.coc_px / std::max(largest, 1e-6))};
+    of.coc_deviation = in.by() * std::hypot(own(c.coc), error.coc_px, blur.coc);
+    of.focus_deviation = {own(focus_variance) / in.depth_scale(),
+                          std::hypot(error.coc_px / scale, focus_error) / in.depth_scale()};
+    of.radius_deviation = {
+        own(c.scale / (scale * scale)),
+        std::hypot(error.share, error.coc_px / std::max(largest, 1e-6), blur.scale / scale)};
     if (match.request.fit == MatchFit::fstop) of.focus_deviation = {};
     if (match.request.fit == MatchFit::focus) of.radius_deviation = {};
     of.softness = std::sqrt(std::max(softness, 0.0)) * in.by();

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -40,6 +41,8 @@ public:
     int by() const { return by_; }
     double radius() const { return radius_; }
     double depth_scale() const; // R F, pixels times scene units
+    // What an error of small blur, MatchTuning::small_blur_error, changes in a fitted lens, as a deviation.
+    BlurGuess blur_error(const BlurGuess &guess, const KnownLens &known) const;
     const ApertureShape &shape() const { return exactly_.gather.lens.looks.aperture; }
     // Through a lens of another shape.
     Rgb gather(const ApertureShape &shape, double coc, double scale, bool exactly) const;
@@ -55,7 +58,8 @@ private:
     Ldi ldi_;
     double radius_ = 0, focal_px_ = 0;
     PictureOptions quickly_, exactly_;
-    Imath::Box2i box_; // the compared pixels
+    Imath::Box2i box_;           // the compared pixels
+    std::vector<double> depths_; // perceptive, of its usable pixels, sorted
 };
 
 // What the request says about the lens, and the guess that has the blur of a lens found before.

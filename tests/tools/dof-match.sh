@@ -35,6 +35,18 @@ exits 0 "${by_region[@]}" -o region.json
 holds focus_distance 2.8 3.25
 holds fstop 0.073 0.073
 
+# Plates come in formats of the screen, too: they are decoded by the file rules, and have the lens of the EXR.
+formats=(jpg)
+[ "${2:-}" != --all ] || formats+=(png dpx tif)
+for format in "${formats[@]}"; do
+    oiiotool plate.exr --colorconvert linear sRGB -o "encoded.$format"
+    exits 0 "$match" ldi.exr "encoded.$format" --json --fit focus --fstop 0.073 --region 3,6,90,45 -v
+    holds focus_distance 2.8 3.25
+    grep -q "encoded.$format: colour space sRGB" stderr || fail "$format is not decoded: $(cat stderr)"
+done
+head -c 700 encoded.jpg >broken.png
+fails_saying 1 'broken.png: cannot read' "$match" ldi.exr broken.png
+
 if [ "${2:-}" = --all ]; then
     # ... or the focus, here of another camera: with four times the focal length in pixels, a quarter of the lens blurs as
     # much.
@@ -92,6 +104,15 @@ if [ "${2:-}" = --all ]; then
             'BEGIN { d = 17.28 * (1 / at - 1 / true); exit !(d > -0.5 && d < 0.5) }' || fail "frame $frame: $(cat stdout)"
     done
     grep -q 'warning: rack.0001.exr: .*its values are those of its neighbours' stderr || fail "a black frame: $(cat stderr)"
+
+    # Near focus, a wider lens blurs like a softer plate: the f-stop cannot be told there, but the focus can.
+    exits 0 "$bin/dof-trace" slant --size 160x90 --spp 16 -o slant
+    exits 0 "$bin/ldi-warp" slant/center.exr slant/view_{0..3}.exr -o slant.ldi.exr
+    exits 0 "$bin/dof-trace" slant --size 160x90 --views 0 --spp 1 --reference 200 --focus-distance 3.26 \
+        --lens-radius 0.04 -o traced
+    fails_saying 1 'the f-stop cannot be told' "$match" slant.ldi.exr traced/reference.exr --region 40,40,100,40
+    exits 0 "$match" slant.ldi.exr traced/reference.exr --region 40,40,100,40 --fit focus --lens-radius 0.04 --json
+    holds focus_distance 3.1 3.42
 
     # The discs of lamps show the blades.
     exits 0 "$bin/dof-trace" lamps --size 160x90 --spp 8 --lens-radius 0.32 -o lamps

@@ -35,10 +35,10 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
                    "LDI of the shot, any deep EXR, or a flat EXR with depth, for example of a scanned set")
         ->type_name("")
         ->required();
-    app.add_option(
-           "PLATE", options.plate,
-           "The filmed plate (EXR), of the same size; --colorspace and others are not needed, because "
-           "colours are not compared")
+    app.add_option("PLATE", options.plate,
+                   "The filmed plate (EXR, or PNG, JPEG, DPX and others, which the file rules of OpenColorIO "
+                   "decode), of "
+                   "the same size; colours are not compared")
         ->type_name("")
         ->required();
     app.add_option("-o,--output", options.output,

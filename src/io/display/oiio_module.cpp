@@ -35,8 +35,20 @@ const char *write(const OiioPicture &picture) {
     return why.c_str();
 }
 
+const char *read(const char *path, void *sink, OiioModule::Begin *begin) {
+    thread_local std::string why;
+    const auto file = OIIO::ImageInput::open(path);
+    if (!file) return (why = OIIO::geterror()).c_str();
+    const OIIO::ImageSpec &spec = file->spec();
+    float *values =
+        begin(sink, spec.width, spec.height, spec.nchannels, spec.get_float_attribute("PixelAspectRatio", 1));
+    if (!values) return "refused";
+    if (file->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values)) return nullptr;
+    return (why = file->geterror()).c_str();
+}
+
 } // namespace
 
-extern "C" OiioModule sparselens_oiio_module() { return {support, write}; }
+extern "C" OiioModule sparselens_oiio_module() { return {support, write, read}; }
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// The writers of OpenImageIO as a module that is loaded only to write a picture. Loading its two hundred libraries
+// OpenImageIO as a module that is loaded only to write or read a picture. Loading its two hundred libraries
 // takes 0.2 s, longer than most pictures take to gather; without them a tool starts in 0.015 s.
 //
 // The interface is in C, so no exception and no object crosses it.
@@ -27,6 +27,10 @@ struct OiioModule {
     Support (*support)(const char *extension);
     // Returns null, or a message that is valid until the thread calls again.
     const char *(*write)(const OiioPicture &picture);
+    // Reads the values of the file pixel by pixel, channels together, coverage multiplied, to where `begin` says; null
+    // there ends the call with a message.
+    using Begin = float *(void *sink, int width, int height, int channels, float pixel_aspect);
+    const char *(*read)(const char *path, void *sink, Begin *begin);
 };
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";

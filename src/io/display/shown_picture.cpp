@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
@@ -26,7 +27,7 @@ OiioModule load() {
     void *module = path.empty() ? nullptr : ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void *entry = module ? ::dlsym(module, oiio_module_entry) : nullptr;
     if (!entry)
-        throw Error(std::string("cannot load OpenImageIO, which writes PNG, JPEG and TIFF: ") +
+        throw Error(std::string("cannot load OpenImageIO, which writes and reads PNG, JPEG and TIFF: ") +
                     (path.empty() ? SPARSELENS_OIIO_MODULE " is not installed" : ::dlerror()));
     return reinterpret_cast<OiioModule (*)()>(entry)();
 }
@@ -147,6 +148,47 @@ std::string shown_picture(const std::string &name, const std::string &format, co
 
 void write_shown_picture(const std::string &path, const Image &image) {
     write_text_file(path, shown_picture(path, extension_of(path), image));
+}
+
+namespace {
+
+struct Decoded {
+    std::string path;
+    int channels = 0;
+    std::vector<float> values = {}; // pixel by pixel
+    Image image = {};
+    std::exception_ptr refused = {};
+};
+
+float *make_room(void *sink, int width, int height, int channels, float pixel_aspect) {
+    Decoded &to = *static_cast<Decoded *>(sink);
+    try {
+        check_memory(to.path, 4.0 * (channels + 3) * width * height, std::filesystem::file_size(to.path));
+        Windows windows = windows_of_size(width, height);
+        windows.pixel_aspect = pixel_aspect;
+        to.image =
+            Image(windows, {{"R", PixelType::float32}, {"G", PixelType::float32}, {"B", PixelType::float32}});
+        to.channels = channels;
+        to.values.resize(windows.pixels() * std::size_t(channels));
+        return to.values.data();
+    } catch (...) {
+        to.refused = std::current_exception();
+        return nullptr;
+    }
+}
+
+} // namespace
+
+Image read_shown_picture(const std::string &path) {
+    Decoded from{path};
+    const char *failed = oiio_module().read(path.c_str(), &from, make_room);
+    if (from.refused) std::rethrow_exception(from.refused);
+    if (failed) throw Error(path + ": cannot read: " + failed);
+    const std::size_t channels = std::size_t(from.channels), next = channels < 3 ? 0 : 1; // or grey
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < from.image.windows.pixels(); ++i)
+            from.image.plane(k)[i] = from.values[i * channels + k * next];
+    return std::move(from.image);
 }
 
 namespace {
