@@ -14,6 +14,8 @@
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
+#include <ImathMatrix.h>
+#include <ImfStandardAttributes.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,10 +89,10 @@ void add_options(CLI::App &app, Options &options) {
                        {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
 
-Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
+FlatFile read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path, options.depth.picture);
     tell_reading(tool.tell(), path, file.notes, file.warnings);
-    return std::move(file.image);
+    return file;
 }
 
 void print(const std::string &text) {
@@ -111,7 +113,7 @@ void write_flip_map(const std::string &path, std::span<const float> map, const W
 std::optional<Image> second_reference(const Options &options, const Windows &windows,
                                       const ToolContext &tool) {
     if (options.second_reference.empty()) return {};
-    return rgba_over(read_picture(options.second_reference, options, tool), windows,
+    return rgba_over(read_picture(options.second_reference, options, tool).image, windows,
                      options.second_reference);
 }
 
@@ -122,10 +124,10 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
                              options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1)
         throw UsageError("standard input (-) cannot be read twice: give one file by its name");
-    const Image reference_file = read_picture(options.reference, options, tool);
+    const Image reference_file = read_picture(options.reference, options, tool).image;
     const Windows &windows = reference_file.windows;
     Image reference = rgba_over(reference_file, windows, options.reference);
-    const Image image = rgba_over(read_picture(options.image, options, tool), windows, options.image);
+    const Image image = rgba_over(read_picture(options.image, options, tool).image, windows, options.image);
 
     std::optional<Image> first;
     const auto second = second_reference(options, windows, tool);
@@ -165,18 +167,29 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
         throw UsageError(fmt::format(
             "--frames {}: three frames or more are needed to tell how steady they are", options.frames));
     TemporalError error;
-    std::optional<Windows> windows; // of the first frame
+    std::optional<Windows> windows;    // of the first frame
+    std::optional<Imath::M44f> camera; // of the frame before
+    bool moves = false;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::vector<std::string> names = frames.words(i);
         const auto read = [&](const std::string &path) {
-            const Image image = read_picture(path, options, tool);
-            if (!windows) windows = image.windows;
-            return rgba_over(image, *windows, path);
+            const FlatFile file = read_picture(path, options, tool);
+            if (!windows) windows = file.image.windows;
+            if (Imf::hasWorldToCamera(file.header)) {
+                const Imath::M44f &now = Imf::worldToCamera(file.header);
+                moves |= camera && !camera->equalWithAbsError(now, 1e-6f);
+                camera = now;
+            }
+            return rgba_over(file.image, *windows, path);
         };
         const auto reference =
             options.reference.empty() ? std::nullopt : std::optional<Image>(read(names[1]));
         error.add(read(names[0]), reference ? &*reference : nullptr);
     }
+    if (moves && options.reference.empty())
+        warn(tool, options.image +
+                       ": the camera moves, so all that passes by changes, too, and the figures do not tell "
+                       "how steady the pictures are: give REF, and compare with its figures");
     print(options.json ? temporal_as_json(error.figures()) : temporal_as_table(error.figures()));
 }
 

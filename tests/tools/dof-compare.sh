@@ -212,6 +212,17 @@ grep -q '"above_0.05": 1' stdout || fail "--frames does not find the pixel that 
 grep -q '"frames": 3' stdout || fail "--frames: $(cat stdout)"
 exits 0 "$compare" 's.####.exr' 's.####.exr' --frames 1-3
 grep -Eq '^psnr_change +inf' stdout || fail "--frames with a reference: $(cat stdout)"
+# A camera that moves is said, where nothing else tells how much changes: without a reference.
+for i in 1 2 3; do
+    oiiotool "s.000$i.exr" --attrib:type=matrix worldToCamera "1,0,0,0,0,1,0,0,0,0,1,0,0.$i,0,0,1" -o "m.000$i.exr"
+    oiiotool "s.000$i.exr" --attrib:type=matrix worldToCamera "1,0,0,0,0,1,0,0,0,0,1,0,0.5,0,0,1" -o "k.000$i.exr"
+done
+exits 0 "$compare" 'm.####.exr' --frames 1-3
+grep -q 'm.####.exr: the camera moves.*: give REF' stderr || fail "a moving camera: $(cat stderr)"
+for quiet in 'm.####.exr m.####.exr' 'k.####.exr'; do
+    exits 0 "$compare" $quiet --frames 1-3
+    [ ! -s stderr ] || fail "$quiet: $(cat stderr)"
+done
 fails_saying 2 'three frames' "$compare" 's.####.exr' --frames 1-2
 fails_saying 1 's.0004.exr' "$compare" 's.####.exr' --frames 1-4
 fails_saying 2 regions "$compare" 's.####.exr' --frames 1-3 --regions ldi.exr
