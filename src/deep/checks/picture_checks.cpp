@@ -103,9 +103,9 @@ constexpr std::size_t enough_pixels = 50;
 constexpr double between = 0.5; // between colours that fall and colours that stay
 constexpr double mostly_open =
     0.35; // coverage below which a premultiplied colour is dark, even of a rim twice as bright
-constexpr double nothing = 1e-3;      // coverage, and light relative to the surface's
-constexpr double even_surface = 0.15; // change of the surface's light beside the edge
-constexpr std::size_t widest = 3;     // pixels of an edge
+constexpr double nothing = 1e-3;     // coverage, and light relative to the surface's
+constexpr double even_surface = 0.5; // change of the surface's light beside the edge, by its texture
+constexpr std::size_t widest = 12;   // pixels of an edge
 
 // A row or column, from one pixel on and in one direction.
 struct Walk {
@@ -131,8 +131,8 @@ struct Walk {
 // Measures an edge: pixels 0 and 1 show the surface; then the edge follows, and then nothing.
 void look_at(const Walk &walk, std::vector<double> &found) {
     if (!walk.reaches(3) || walk.coverage(0) < 1 - nothing || walk.coverage(1) < 1 - nothing) return;
-    const double surface = walk.light(1);
-    if (!(surface > 0) || !(std::abs(walk.light(0) - surface) < even_surface * surface)) return;
+    const double surface = (walk.light(0) + walk.light(1)) / 2;
+    if (!(surface > 0) || !(std::abs(walk.light(0) - walk.light(1)) < even_surface * surface)) return;
     std::size_t end = 2;
     while (walk.reaches(end) && walk.coverage(end) > nothing && walk.coverage(end) < walk.coverage(end - 1))
         ++end;

@@ -36,7 +36,7 @@ bool looks_encoded(const EdgeMixing &mixing);
 
 // Whether the colours of a picture are multiplied by their coverage, as they must be.
 //
-// Over an edge of one to three pixels, from an opaque surface to nothing, coverage falls from 1 to 0. Premultiplied
+// Over an edge of one to twelve pixels, from an opaque surface to nothing, coverage falls from 1 to 0. Premultiplied
 // colours fall with it, while unpremultiplied ones stay as bright as the surface. Light that is added without coverage
 // (glows, flames) cannot tell the two apart, so the pixels beyond the edge have to be black.
 struct EdgeFall {
