@@ -4,7 +4,6 @@
 #include "chain/regions.h"
 #include "harness/commands/frames.h"
 #include "harness/tool.h"
-#include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "measure/figures_text.h"
 #include "measure/flip.h"
@@ -19,7 +18,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
@@ -89,31 +87,23 @@ void add_options(CLI::App &app, Options &options) {
                        {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
 
-FlatFile read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
+Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path, options.depth.picture);
     tell_reading(tool.tell(), path, file.notes, file.warnings);
-    return file;
-}
-
-void print(const std::string &text) {
-    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-        throw Error("standard output: cannot write");
+    return std::move(file.image);
 }
 
 // The same value in R, G and B, so that every program shows it as grey.
 void write_flip_map(const std::string &path, std::span<const float> map, const Windows &windows) {
     Image image(windows, {{"R", PixelType::float32}, {"G", PixelType::float32}, {"B", PixelType::float32}});
     for (std::size_t c = 0; c < 3; ++c) std::ranges::copy(map, image.plane(c).begin());
-    if (is_shown_picture(path))
-        write_shown_picture(path, image);
-    else
-        write_flat_exr(path, image, {});
+    write_plain(path, image);
 }
 
 std::optional<Image> second_reference(const Options &options, const Windows &windows,
                                       const ToolContext &tool) {
     if (options.second_reference.empty()) return {};
-    return rgba_over(read_picture(options.second_reference, options, tool).image, windows,
+    return rgba_over(read_picture(options.second_reference, options, tool), windows,
                      options.second_reference);
 }
 
@@ -124,10 +114,10 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
                              options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1)
         throw UsageError("standard input (-) cannot be read twice: give one file by its name");
-    const Image reference_file = read_picture(options.reference, options, tool).image;
+    const Image reference_file = read_picture(options.reference, options, tool);
     const Windows &windows = reference_file.windows;
     Image reference = rgba_over(reference_file, windows, options.reference);
-    const Image image = rgba_over(read_picture(options.image, options, tool).image, windows, options.image);
+    const Image image = rgba_over(read_picture(options.image, options, tool), windows, options.image);
 
     std::optional<Image> first;
     const auto second = second_reference(options, windows, tool);
@@ -168,19 +158,19 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
             "--frames {}: three frames or more are needed to tell how steady they are", options.frames));
     TemporalError error;
     std::optional<Windows> windows;    // of the first frame
-    std::optional<Imath::M44f> camera; // of the frame before
+    std::optional<Imath::M44f> camera; // of the last one that tells it
     bool moves = false;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::vector<std::string> names = frames.words(i);
         const auto read = [&](const std::string &path) {
-            const FlatFile file = read_picture(path, options, tool);
-            if (!windows) windows = file.image.windows;
-            if (Imf::hasWorldToCamera(file.header)) {
-                const Imath::M44f &now = Imf::worldToCamera(file.header);
-                moves |= camera && !camera->equalWithAbsError(now, 1e-6f);
-                camera = now;
+            const Image image = read_picture(path, options, tool);
+            if (!windows) windows = image.windows;
+            const Imf::Header header = read_flat_header(path, options.depth.picture);
+            if (Imf::hasWorldToCamera(header)) {
+                moves |= camera && *camera != Imf::worldToCamera(header);
+                camera = Imf::worldToCamera(header);
             }
-            return rgba_over(file.image, *windows, path);
+            return rgba_over(image, *windows, path);
         };
         const auto reference =
             options.reference.empty() ? std::nullopt : std::optional<Image>(read(names[1]));
@@ -188,8 +178,8 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
     }
     if (moves && options.reference.empty())
         warn(tool, options.image +
-                       ": the camera moves, so all that passes by changes, too, and the figures do not tell "
-                       "how steady the pictures are: give REF, and compare with its figures");
+                       ": the camera moves, so most pixels change, and the figures do not tell how steady "
+                       "the pictures are: give REF, and compare with its figures");
     print(options.json ? temporal_as_json(error.figures()) : temporal_as_table(error.figures()));
 }
 

@@ -14,7 +14,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,14 +40,6 @@ std::vector<FrameFiles> files_of(const MatchCommand &options, const ToolContext 
                          names[0], names[2]});
     }
     return files;
-}
-
-void write_shown(const std::string &path, const Image &image) {
-    if (path.empty()) return;
-    if (is_shown_picture(path))
-        write_shown_picture(path, image);
-    else
-        write_flat_exr(path, image, {});
 }
 
 // The LDIs and the plates of the frames.
@@ -98,7 +89,8 @@ MatchedFrames match_frames(Shot &shot, const std::vector<FrameFiles> &files, con
     FrameMatcher matcher(request);
     for (const FrameFiles &frame : files) {
         const OpenedLdi &in = shot.ldi(frame);
-        write_shown(frame.show, matcher.match(in, shot.plate(frame), frame.plate, *tool.progress));
+        const Image fit = matcher.match(in, shot.plate(frame), frame.plate, *tool.progress);
+        if (!frame.show.empty()) write_plain(frame.show, fit);
     }
     return matcher.smooth();
 }
@@ -143,11 +135,6 @@ std::string table_of(const std::vector<FrameFiles> &files, const std::vector<Mat
     return text_table(rows);
 }
 
-void print(const std::string &text) {
-    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-        throw Error("standard output: cannot write");
-}
-
 void run(const MatchCommand &options, const ToolContext &tool) {
     const std::vector<FrameFiles> files = files_of(options, tool);
     Shot shot(options, tool);
@@ -158,15 +145,13 @@ void run(const MatchCommand &options, const ToolContext &tool) {
     if (shape) request = with_shape(request, *shape);
     const auto &[lenses, warnings] = match_frames(shot, files, request, tool);
     for (const std::string &text : warnings) warn(tool, text);
+    Json lines;
     for (std::size_t i = 0; i < files.size(); ++i) {
         ToolContext of_frame;
         of_frame.tool_name = tool.tool_name;
         of_frame.stats = options.stats;
         of_frame.frame = files[i].number;
         write_stats(of_frame, as_json(lenses[i]));
-    }
-    Json lines;
-    for (std::size_t i = 0; i < files.size(); ++i) {
         lines.push_back({{"frame", key_of(files[i])}});
         lines.back().update(as_json(lenses[i]));
         if (shape) lines.back()["shape"] = as_json(*shape);

@@ -160,9 +160,12 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
         ->type_name("N")
         ->check(CLI::Range(1, most_moments))
         ->excludes("--plan");
-    app.add_option("--seed", options.seed,
-                   fmt::format("Seed of the random numbers; different seeds share no noise (default: {})",
-                               options.seed))
+    app.add_option(
+           "--seed", options.seed,
+           fmt::format(
+               "Seed of the random numbers; different seeds share no noise. N x N samples of a view are "
+               "a grid, which no seed changes (default: {})",
+               options.seed))
         ->type_name("N")
         ->check(CLI::Range(0, largest_seed));
     app.add_option(

@@ -161,8 +161,7 @@ void give_back_memory() {
 }
 
 std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory) {
-    return max_memory.value_or(std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE)) /
-                               4);
+    return max_memory.value_or(memory_of_machine() / 4);
 }
 
 namespace {

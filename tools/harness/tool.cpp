@@ -6,6 +6,8 @@
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
+#include "io/display/shown_picture.h"
+#include "io/exr/exr_flat.h"
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -13,6 +15,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 namespace sparselens {
@@ -30,6 +33,16 @@ std::string warning(const ToolContext &tool, const std::string &text) {
 }
 
 } // namespace
+
+void print(const std::string &text) {
+    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
+        throw Error("standard output: cannot write");
+}
+
+void write_plain(const std::string &path, const Image &image) {
+    if (is_shown_picture(path)) return write_shown_picture(path, image);
+    write_flat_exr(path, image, {});
+}
 
 void warn(const ToolContext &tool, const std::string &text) {
     tool.turn->say([line = warning(tool, text)] { fmt::print(stderr, "{}", line); });

@@ -1,6 +1,7 @@
 // What all tools share: common options, exit codes, and one clear line for an error.
 #pragma once
 
+#include "base/image.h"
 #include "base/progress.h"
 #include "chain/notices.h"
 #include "harness/commands/cli.h"
@@ -81,6 +82,12 @@ int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &w
 using Prepare = std::function<Job(CLI::App &)>;
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
                const Prepare &prepare);
+
+// Prints to standard output. Throws Error if that fails.
+void print(const std::string &text);
+
+// Writes R, G and B as they are: EXR, or a format of the screen.
+void write_plain(const std::string &path, const Image &image);
 
 // Prints a warning to stderr, with or without --verbose: "tool: warning: text".
 void warn(const ToolContext &tool, const std::string &text);

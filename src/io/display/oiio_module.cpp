@@ -35,16 +35,18 @@ const char *write(const OiioPicture &picture) {
     return why.c_str();
 }
 
-const char *read(const char *path, void *sink, OiioModule::Begin *begin) {
+const char *read(const char *path, OiioSize &size, float *values) {
     thread_local std::string why;
     const auto file = OIIO::ImageInput::open(path);
     if (!file) return (why = OIIO::geterror()).c_str();
     const OIIO::ImageSpec &spec = file->spec();
-    float *values =
-        begin(sink, spec.width, spec.height, spec.nchannels, spec.get_float_attribute("PixelAspectRatio", 1));
-    if (!values) return "refused";
-    if (file->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values)) return nullptr;
-    return (why = file->geterror()).c_str();
+    if (!values) size = {spec.width, spec.height, spec.get_float_attribute("PixelAspectRatio", 1)};
+    if (spec.width != size.width || spec.height != size.height) return "it has changed";
+    for (int k = 0, from = 0; values && k<3; ++k, from += spec.nchannels> 2) // or grey
+        if (!file->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT,
+                              values + std::ptrdiff_t(k) * size.width * size.height))
+            return (why = file->geterror()).c_str();
+    return nullptr;
 }
 
 } // namespace

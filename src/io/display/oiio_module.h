@@ -20,6 +20,11 @@ struct OiioPicture {
     float pixel_aspect; // width over height
 };
 
+struct OiioSize {
+    int width, height;
+    float pixel_aspect;
+};
+
 struct OiioModule {
     enum class Support { none, opaque, alpha };
 
@@ -27,10 +32,8 @@ struct OiioModule {
     Support (*support)(const char *extension);
     // Returns null, or a message that is valid until the thread calls again.
     const char *(*write)(const OiioPicture &picture);
-    // Reads the values of the file pixel by pixel, channels together, coverage multiplied, to where `begin` says; null
-    // there ends the call with a message.
-    using Begin = float *(void *sink, int width, int height, int channels, float pixel_aspect);
-    const char *(*read)(const char *path, void *sink, Begin *begin);
+    // Reads R, G and B of a file of this size, plane after plane; its size if `values` is null.
+    const char *(*read)(const char *path, OiioSize &size, float *values);
 };
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";

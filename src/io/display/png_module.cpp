@@ -1,4 +1,4 @@
-// Writes and reads PNG by libpng alone: the module of io/display/oiio_module.h for archives, where OpenImageIO would bring two
+// Writes PNG by libpng alone: the module of io/display/oiio_module.h for archives, where OpenImageIO would bring two
 // hundred libraries (tools/bundle.sh). Its pixels equal OpenImageIO's.
 #include "io/display/oiio_module.h"
 
@@ -59,21 +59,7 @@ const char *write(const OiioPicture &picture) try {
     return why.c_str();
 }
 
-const char *read(const char *path, void *sink, OiioModule::Begin *begin) {
-    thread_local png_image image;
-    image = {};
-    image.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&image, path)) return image.message;
-    image.format = PNG_FORMAT_RGB;
-    float *values = begin(sink, int(image.width), int(image.height), 3, 1);
-    std::vector<std::uint8_t> bytes(values ? PNG_IMAGE_SIZE(image) : 0);
-    if (!values || !png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr)) {
-        png_image_free(&image);
-        return values ? image.message : "refused";
-    }
-    std::ranges::transform(bytes, values, [](std::uint8_t v) { return float(v) / 255; });
-    return nullptr;
-}
+const char *read(const char *, OiioSize &, float *) { return "this archive lacks OpenImageIO: give an EXR"; }
 
 } // namespace
 

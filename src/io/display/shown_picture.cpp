@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
@@ -150,45 +149,18 @@ void write_shown_picture(const std::string &path, const Image &image) {
     write_text_file(path, shown_picture(path, extension_of(path), image));
 }
 
-namespace {
-
-struct Decoded {
-    std::string path;
-    int channels = 0;
-    std::vector<float> values = {}; // pixel by pixel
-    Image image = {};
-    std::exception_ptr refused = {};
-};
-
-float *make_room(void *sink, int width, int height, int channels, float pixel_aspect) {
-    Decoded &to = *static_cast<Decoded *>(sink);
-    try {
-        check_memory(to.path, 4.0 * (channels + 3) * width * height, std::filesystem::file_size(to.path));
-        Windows windows = windows_of_size(width, height);
-        windows.pixel_aspect = pixel_aspect;
-        to.image =
-            Image(windows, {{"R", PixelType::float32}, {"G", PixelType::float32}, {"B", PixelType::float32}});
-        to.channels = channels;
-        to.values.resize(windows.pixels() * std::size_t(channels));
-        return to.values.data();
-    } catch (...) {
-        to.refused = std::current_exception();
-        return nullptr;
-    }
-}
-
-} // namespace
-
 Image read_shown_picture(const std::string &path) {
-    Decoded from{path};
-    const char *failed = oiio_module().read(path.c_str(), &from, make_room);
-    if (from.refused) std::rethrow_exception(from.refused);
-    if (failed) throw Error(path + ": cannot read: " + failed);
-    const std::size_t channels = std::size_t(from.channels), next = channels < 3 ? 0 : 1; // or grey
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < from.image.windows.pixels(); ++i)
-            from.image.plane(k)[i] = from.values[i * channels + k * next];
-    return std::move(from.image);
+    OiioSize size{};
+    const auto read = [&](float *to) {
+        if (const char *failed = oiio_module().read(path.c_str(), size, to))
+            throw Error(path + ": cannot read: " + failed);
+    };
+    read(nullptr);
+    check_memory(path, 12.0 * size.width * size.height, std::filesystem::file_size(path));
+    Image image(windows_of_size(size.width, size.height), {{"R"}, {"G"}, {"B"}});
+    image.windows.pixel_aspect = size.pixel_aspect;
+    read(image.values.data());
+    return image;
 }
 
 namespace {

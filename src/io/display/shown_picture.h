@@ -35,7 +35,7 @@ ShownPixels shown_pixels(const std::string &name, const Image &image);
 // Writes the same as a file; its extension selects the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);
 
-// Reads such a file as R, G and B, as they are encoded in it. Throws Error, beginning with `path`.
+// Reads such a file as R, G and B, as encoded there. Throws Error, beginning with `path`.
 Image read_shown_picture(const std::string &path);
 
 // The names under which pictures may be written. The ending selects the format. A wrong ending is an error, reported

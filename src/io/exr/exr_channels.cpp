@@ -181,7 +181,10 @@ ChannelsOfPicture::ChannelsOfPicture(PictureLayer picture, const std::vector<Cha
 }
 
 bool ChannelsOfPicture::owns(const std::string &channel) const {
-    return channel.starts_with(own_.prefix.empty() ? own_.beauty + "." : own_.prefix);
+    const std::string own = own_.prefix.empty() ? own_.beauty + "." : own_.prefix;
+    return channel.starts_with(own) && std::ranges::none_of(others_, [&](const std::string &other) {
+               return other.size() > own.size() && channel.starts_with(other);
+           });
 }
 
 std::string ChannelsOfPicture::name_of(const std::string &channel) const {
@@ -265,7 +268,10 @@ std::size_t guessed(std::span<const Channel> channels) {
         return name.ends_with(".z") && named(channels, name.substr(0, name.size() - 1) + "x") == npos;
     };
     if (const std::size_t k = only(channels, is_alone); k != npos) return k;
-    return only(channels, [](const std::string &name) { return name.find("depth") != name.npos; });
+    return only(channels, [](const std::string &name) { // G and B of a depth in R, G and B repeat it
+        const std::string last = colour_name(name.substr(name.rfind('.') + 1));
+        return name.find("depth") != name.npos && last != "G" && last != "B" && last != "A";
+    });
 }
 
 } // namespace

@@ -94,7 +94,7 @@ std::vector<Channel> full_channels(const Imf::MultiPartInputFile &file, const st
 //
 // The first of these that exists, in any case: Z; depth.Z; *.Depth.Z; a channel, or the first of a layer, named z,
 // depth or zdepth (Z.R, depth.V, zDepth.R). Otherwise it guesses, with a warning: the only LAYER.Z without a LAYER.X,
-// or the only channel with "depth" in its name.
+// or the only channel with "depth" in its name that is no G, B or A.
 struct FlatFile; // io/exr/exr_flat.h
 
 struct DepthChannel {

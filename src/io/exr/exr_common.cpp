@@ -31,7 +31,11 @@ bool describes_storage(const std::string &name) {
         "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
         "pixelAspectRatio", "preview",       "tiles",       "type",
         "version"};
-    return is_among(names, name) || name == kept_names_attribute || name == "BlenderMultiChannel";
+    static constexpr std::array of_pixels{"oiio:SHA-1", "oiio:AverageColor",
+                                          "oiio:ConstantColor", // of textures
+                                          "textureformat", "wrapmodes"};
+    return is_among(names, name) || is_among(of_pixels, name) || name == kept_names_attribute ||
+           name == "BlenderMultiChannel";
 }
 
 } // namespace

@@ -5,12 +5,14 @@
 #include "io/files/file_stream.h"
 
 #include <ImfBoxAttribute.h>
+#include <ImfCompression.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
+#include <OpenEXRConfig.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -202,6 +204,12 @@ private:
         if (type == "preview" && !is_preview(bytes)) fail(name, "does not have the size that it claims");
         if (type == "stringvector" && !is_list(begin + bytes))
             fail(name, "does not have the size that it claims");
+        if (const int code = type == "compression" ? byte() : 0; code >= int(Imf::NUM_COMPRESSION_METHODS))
+            throw Error(fmt::format(
+                "{}: its compression (code {}; HTJ2K is 10 and 11, from OpenEXR 3.4 on) is newer than "
+                "OpenEXR " OPENEXR_VERSION_STRING
+                ": convert it by a newer oiiotool: oiiotool IN --compression zip -o OUT.exr",
+                display_name(path_), code));
         in_.seekg(begin + bytes);
     }
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 namespace sparselens {
 
@@ -84,6 +85,12 @@ bool is_beauty(const Imf::Header &header) {
 std::vector<std::string> views_of(const Imf::Header &header) {
     if (Imf::hasMultiView(header) && !Imf::multiView(header).empty()) return Imf::multiView(header);
     if (header.hasView() && !header.view().empty()) return {header.view()};
+    const auto has = [&](const std::string &name) { return header.channels().findChannel(name) != nullptr; };
+    for (const auto &[hero, other] : {std::pair("left", "right"), std::pair("right", "left")})
+        if (const std::string eye = std::string(other) + "."; has("R") && has(eye + "R") &&
+                                                              (has(eye + "Z") || has(eye + "depth.Z")) &&
+                                                              !has(hero + std::string(".R")))
+            return {hero, other};
     return {};
 }
 
@@ -163,7 +170,7 @@ void colours_first(std::vector<FileChannel> &channels) {
 }
 
 Imf::Header header_of_view(const Imf::Header &header, const std::string &view) {
-    if (!Imf::hasMultiView(header)) return header;
+    if (!Imf::hasMultiView(header) && views_of(header).size() < 2) return header;
     Imf::Header result = without_attribute(header, "multiView");
     if (!view.empty()) result.setView(view);
     return result;

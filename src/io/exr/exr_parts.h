@@ -4,7 +4,8 @@
 // The attribute `view` names the view of a part. A single part may hold several views, which `multiView` lists, the
 // default view first ("Storing Multi-View Images in OpenEXR Files", P. Hillman, F. Kainz, 2007). In such a part VIEW.R
 // and LAYER.VIEW.R (or VIEW.LAYER.R, as some write it) are R and LAYER.R of the view, and R alone belongs to the
-// default view. A layer whose name contains no view belongs to all views that lack a layer of that name.
+// default view. A layer whose name contains no view belongs to all views that lack a layer of that name. Without
+// `multiView`, a layer named as one eye with a depth of its own is that eye's view, and R alone is the other eye.
 #pragma once
 
 #include "../../base/image.h"

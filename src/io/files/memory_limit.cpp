@@ -4,9 +4,12 @@
 #include "io/files/file_stream.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 
 namespace sparselens {
 
@@ -20,6 +23,22 @@ std::atomic<std::uint64_t> process_limit = by_size;
 std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", std::ceil(bytes / (1024 * 1024))); }
 
 } // namespace
+
+std::uint64_t memory_of_machine(const std::string &root) {
+    std::uint64_t least = std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGESIZE)),
+                  limit;
+    std::ifstream groups(root + "/proc/self/cgroup"); // lines like 0::/a/b (version 2) and 4:cpu,memory:/a/b
+    for (std::string number, kinds, group;
+         std::getline(std::getline(std::getline(groups, number, ':'), kinds, ':'), group);) {
+        if (!kinds.empty() && kinds.find("memory") == std::string::npos) continue;
+        const std::string top = root + (kinds.empty() ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory"),
+                          name = kinds.empty() ? "/memory.max" : "/memory.limit_in_bytes";
+        for (std::string at = top + group; at.size() >= top.size();
+             at.resize(at.rfind('/')))                                             // and its parents
+            if (std::ifstream(at + name) >> limit) least = std::min(least, limit); // not "max"
+    }
+    return least;
+}
 
 void set_memory_limit(std::optional<std::uint64_t> bytes) { process_limit = bytes.value_or(by_size); }
 

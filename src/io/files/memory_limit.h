@@ -11,6 +11,10 @@
 
 namespace sparselens {
 
+// The memory of the machine, or what the control groups of the process allow (containers, farms) if that is less.
+// `root`: the folder with /proc and /sys.
+std::uint64_t memory_of_machine(const std::string &root = {});
+
 // Sets the limit of the process, before anything is read. Empty: the default limit, by the size of each file.
 void set_memory_limit(std::optional<std::uint64_t> bytes);
 

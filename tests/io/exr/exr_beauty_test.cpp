@@ -100,6 +100,20 @@ TEST(Beauty, APictureHasItsOwnChannelsAndThoseOfNone) {
     EXPECT_EQ(full_name("fg.Combined.R", "whole", false), "fg.Combined.R");
 }
 
+TEST(Beauty, ALayerWhoseNameBeginsAnothersHasItsOwnChannelsOnly) {
+    std::vector<Channel> all;
+    for (const std::string layer : {"View.001", "View.001.b"})
+        for (const char *name : {"Combined.R", "Combined.G", "Combined.B", "Depth.Z", "Diffuse.R"})
+            all.push_back({layer + "." + name, PixelType::float32});
+    for (const std::string layer : {"View.001", "View.001.b"}) {
+        const ChannelsOfPicture picture(*chosen_picture(all, layer, "x.exr"), all);
+        Names names;
+        for (const Channel &channel : all)
+            if (const std::string name = picture.name_of(channel.name); !name.empty()) names.push_back(name);
+        EXPECT_EQ(names, (Names{"R", "G", "B", layer + ".Depth.Z", layer + ".Diffuse.R"}));
+    }
+}
+
 TEST(Beauty, ALayerOfAllItsChannelsHasADepthToo) {
     std::vector<Channel> all = layers({"bg", "fg"});
     for (const char *name : {"fg.Z", "fg.ZBack", "Z"}) all.push_back({name, PixelType::float32});

@@ -110,6 +110,9 @@ TEST_F(ExrFlat, MetadataIsKeptExceptWhatDescribesThePixels) {
     header.screenWindowWidth() = 3;
     header.compression() = Imf::PIZ_COMPRESSION;
     header.channels().insert("gone", Imf::Channel(Imf::HALF));
+    const std::vector<std::string> of_pixels{"oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor",
+                                             "textureformat", "wrapmodes"};
+    for (const std::string &name : of_pixels) header.insert(name, Imf::StringAttribute("of the pixels"));
     write_flat_exr(path, one_pixel(PixelType::half, 1), header);
     const Imf::Header read = read_flat_header(path);
     EXPECT_EQ(read.typedAttribute<Imf::StringAttribute>("comments").value(), "a comment");
@@ -117,6 +120,7 @@ TEST_F(ExrFlat, MetadataIsKeptExceptWhatDescribesThePixels) {
     EXPECT_EQ(read.screenWindowWidth(), 3);
     EXPECT_EQ(read.compression(), Imf::PIZ_COMPRESSION);
     EXPECT_EQ(read.channels().findChannel("gone"), nullptr);
+    for (const std::string &name : of_pixels) EXPECT_EQ(read.find(name), read.end()) << name;
     EXPECT_EQ(read.displayWindow(), Imath::Box2i({0, 0}, {0, 0}));
 }
 
@@ -289,6 +293,20 @@ TEST(TakeDepth, TakesTheUsualNamesAndLeavesTheRest) {
         Image named = with_depths({{"R"}, {name, PixelType::float32}});
         EXPECT_EQ(take_depth(named, "", "f"), (std::vector<float>{2, 3})) << name;
     }
+}
+
+// Octane and Unreal write depth as a picture, with one value in R, G and B.
+TEST(TakeDepth, TakesALayerOfThreeEqualChannels) {
+    for (const std::string layer : {"Z-depth", "FinalImageMovieRenderQueue_WorldDepth"}) {
+        Image image = with_depths({{"R"},
+                                   {layer + ".A", PixelType::float32},
+                                   {layer + ".B", PixelType::float32},
+                                   {layer + ".G", PixelType::float32},
+                                   {layer + ".R", PixelType::float32}});
+        EXPECT_EQ(take_depth(image, "", "f"), (std::vector<float>{8, 9})) << layer;
+    }
+    Image two = with_depths({{"R"}, {"depth1.R", PixelType::float32}, {"depth2.R", PixelType::float32}});
+    EXPECT_THROW(take_depth(two, "", "f"), Error);
 }
 
 TEST(TakeDepth, TakesTheOneThatIsAskedFor) {

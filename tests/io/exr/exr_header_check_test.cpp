@@ -3,7 +3,10 @@
 #include "io/exr/exr_header.h"
 #include "support/scratch_folder.h"
 
+#include <ImfCompression.h>
 #include <ImfStringAttribute.h>
+#include <OpenEXRConfig.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace sparselens {
@@ -39,6 +42,19 @@ protected:
         }
     }
 };
+
+TEST_F(HeaderCheck, ANewerCompressionSaysWhatToDo) {
+    const auto by = [&](int code) {
+        return said(one_part + attribute("compression", "compression", std::string(1, char(code))) + '\0');
+    };
+    EXPECT_EQ(by(Imf::DWAB_COMPRESSION), "");
+    for (const int code : {int(Imf::NUM_COMPRESSION_METHODS), 100, 255})
+        EXPECT_EQ(by(code),
+                  fmt::format("its compression (code {}; HTJ2K is 10 and 11, from OpenEXR 3.4 on) is newer "
+                              "than OpenEXR {}: "
+                              "convert it by a newer oiiotool: oiiotool IN --compression zip -o OUT.exr",
+                              code, OPENEXR_VERSION_STRING));
+}
 
 TEST_F(HeaderCheck, SoundHeadersPass) {
     Imf::Header header;

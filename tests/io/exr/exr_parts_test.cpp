@@ -211,6 +211,23 @@ TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
     EXPECT_EQ(read_ldi(path, {"right"}).ldi.z[0], 5);
 }
 
+// Nuke's hero view, in a file that lists no views.
+TEST_F(ExrParts, AnEyeWithADepthOfItsOwnIsAView) {
+    for (const std::string depth : {"Z", "depth.Z"})
+        for (const auto &[hero, other] : {std::pair("left", "right"), std::pair("right", "left")}) {
+            const std::string eye = other + std::string(".");
+            write_flat({{"R", 1}, {depth, 2}, {eye + "R", 4}, {eye + depth, 5}}, {});
+            EXPECT_EQ(stereo_views(path), (std::vector<std::string>{hero, other})) << depth;
+            EXPECT_EQ(names_in(""), (Names{"R", depth}));
+            EXPECT_EQ(read_ldi(path).ldi.z[0], 2);
+            EXPECT_EQ(read_ldi(path, {other}).ldi.z[0], 5);
+            EXPECT_EQ(read_flat_exr(path, {other}).image.plane(0)[0], 4);
+            EXPECT_EQ(read_flat_header(path, {other}).view(), other);
+        }
+    write_flat({{"R", 1}, {"Z", 2}, {"left.R", 3}, {"left.Z", 3}, {"right.R", 4}, {"right.Z", 5}}, {});
+    EXPECT_TRUE(stereo_views(path).empty()); // R belongs to neither
+}
+
 TEST_F(ExrParts, ThePictureOfAViewSaysSo) {
     write_flat({{"R", 1}, {"right.R", 4}}, {"left", "right"});
     for (const char *view : {"left", "right"}) {
