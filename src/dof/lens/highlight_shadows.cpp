@@ -217,6 +217,13 @@ bool HighlightShadows::is_left_behind(std::uint32_t lamp_sample, const Caster &c
            std::ranges::binary_search(highlights_.sample, sample);
 }
 
+// Whether the caster has almost no parallax with the lamp, up to the depth `hardly`, and does not cover it.
+bool HighlightShadows::casts_hardly(const ShadowedLamp &lamp, float hardly, const Caster &caster) {
+    const std::array<float, 4> &place = caster.joined->footprint.place;
+    return !caster.of->is_coarse() && caster.joined->depth <= hardly &&
+           !lamp.is_beside({{place[0], place[2]}, {place[1], place[3]}});
+}
+
 // Whether the caster may cast a shadow on some member of the group.
 bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
     const ShadowCasters &casters = *caster.of;
@@ -224,6 +231,7 @@ bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster)
         casters.is_coarse() ? search_.far_before(group.depth) / casters.across : group.depth;
     const auto &[footprint, depth, to, sample] = *caster.joined;
     if (!(depth > farthest && depth <= search_.range_of(group, casters).nearest)) return false;
+    if (casts_hardly(group, group.depth + one_surface_px, caster)) return false;
     return ShadowEdges(group, casters.across, casters.corner, footprint).may_reach(group);
 }
 
@@ -231,10 +239,7 @@ void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Ra
                                 const Caster &caster, Shadow &into) const {
     const auto &[footprint, depth, to, sample] = *caster.joined;
     if (!(depth > range.farthest && depth <= range.nearest)) return;
-    const std::array<float, 4> &place = footprint.place;
-    if (!caster.of->is_coarse() && depth <= lamp.hardly &&
-        !lamp.is_beside({{place[0], place[2]}, {place[1], place[3]}}))
-        return;
+    if (casts_hardly(lamp, lamp.hardly, caster)) return;
     const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, footprint);
     const Imath::Box2f shadow = edges.shadow();
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;

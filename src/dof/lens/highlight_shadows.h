@@ -100,6 +100,7 @@ private:
     template <typename Visit>
     void for_each_caster(const ShadowedLamp &lamp, const CastingBlock &block, const Visit &visit) const;
     const std::vector<JoinedFootprint> &casters_of(const ShadowedLamp &lamp, const CastingBlock &block) const;
+    static bool casts_hardly(const ShadowedLamp &lamp, float hardly, const Caster &caster);
     bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
     void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,
                   Shadow &into) const;

@@ -24,15 +24,32 @@ NearSteps steps_of(std::span<const JoinedFootprint> footprints) {
 
 } // namespace
 
+namespace {
+
+// Returns the depths that footprints joined of several depths extend over, as ranges that do not overlap, ascending.
+std::vector<BlockFootprints::DepthRange> depths_of(std::span<const JoinedFootprint> joined) {
+    std::vector<BlockFootprints::DepthRange> all, apart;
+    for (const JoinedFootprint &one : joined)
+        if (one.depth < one.nearest) all.push_back({one.depth, one.nearest});
+    std::ranges::sort(all, {}, &BlockFootprints::DepthRange::farthest);
+    for (const auto &range : all)
+        if (apart.empty() || range.farthest > apart.back().nearest)
+            apart.push_back(range);
+        else
+            apart.back().nearest = std::max(apart.back().nearest, range.nearest);
+    return apart;
+}
+
+} // namespace
+
 BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links)
     : ldi_(ldi), samples_(samples), links_(std::move(links)), areas_(samples, links_ ? &*links_ : nullptr),
       made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
 
 const std::vector<JoinedFootprint> &BlockFootprints::Block::apart_from(float farthest, float nearest) const {
-    const bool parts = std::ranges::any_of(joined, [&](const JoinedFootprint &one) {
-        return one.depth <= nearest && one.nearest > farthest && one.depth < one.nearest;
-    });
-    return parts ? alone : joined;
+    const auto behind = [&](const DepthRange &range) { return !(range.nearest > farthest); };
+    const auto range = std::ranges::partition_point(joined_over, behind);
+    return range != joined_over.end() && range->farthest <= nearest ? alone : joined;
 }
 
 const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
@@ -43,6 +60,7 @@ const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
         const SampleRun run{own.begin, own.end};
         made.alone = joined(in_picture(), run, own.begin, footprints);
         made.joined = joined(in_picture(), run, own.opaque_end, footprints);
+        made.joined_over = depths_of(made.joined);
         made.near = steps_of(made.joined);
     });
     return computed_[block];

@@ -126,9 +126,13 @@ public:
     BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links = {});
     BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
 
+    struct DepthRange { // perceptive
+        float farthest, nearest;
+    };
     struct Block {
         std::vector<JoinedFootprint> alone, joined; // footprints of its samples
-        NearSteps near;                             // bounds of the joined footprints
+        std::vector<DepthRange> joined_over; // what joined footprints of several depths extend over, ascending
+        NearSteps near;                      // bounds of the joined footprints
 
         // Returns the joined footprints; the single ones if a joined one could lie on both sides of a lamp whose
         // perceptive depth is between these.

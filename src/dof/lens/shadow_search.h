@@ -173,8 +173,44 @@ struct ShadowEdges {
     bool may_reach(const ShadowedLamp &group) const;
 };
 
+inline ShadowEdges::ShadowEdges(const ShadowedLamp &lamp, float across, const Imath::V2f &corner,
+                         const Footprint &footprint) {
+    const auto both = [](const auto &v) { return Float4{float(v.x), float(v.x), float(v.y), float(v.y)}; };
+    coc = across * load4(footprint.coc.data());
+    magnified = shadow_magnification(float(lamp.lamp.coc) + Float4{}, coc, both(lamp.screen.scale));
+    from_lamp =
+        across * load4(footprint.place.data()) + both(corner) - both(lamp.origin) - both(lamp.lamp.centre);
+    at = both(lamp.screen.middle) + magnified * from_lamp;
+}
+
+inline bool ShadowEdges::as_blurred() const {
+    return std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2]) || std::isnan(at[3]);
+}
+
+inline Imath::Box2f ShadowEdges::shadow() const {
+    Imath::Box2f box;
+    for (const int axis : {0, 1}) {
+        const int first = 2 * axis, last = first + 1;
+        float low = -INFINITY, high = INFINITY;
+        (magnified[first] > 0 ? low : high) = at[first];
+        if (magnified[last] > 0)
+            high = std::min(high, at[last]);
+        else
+            low = std::max(low, at[last]);
+        box.min[axis] = low, box.max[axis] = high;
+    }
+    return box;
+}
+
 // Whether some of a shadow lies in a box of pixels.
-bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box);
+inline bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box) {
+    for (const int axis : {0, 1}) {
+        const auto begin = float(box.min[axis]), end = float(box.max[axis]) + 1;
+        const float low = shadow.min[axis], high = shadow.max[axis];
+        if (!(high > begin && low <= end && high > low)) return false;
+    }
+    return true;
+}
 
 // Lists of what may cast shadows on wide discs, made once for all tiles of a picture: a disc reaches many tiles, and
 // few of the blocks in front of it are near enough to its light's path.
