@@ -16,6 +16,11 @@ struct GatherTuning {
     static constexpr float lamp_near_focus_px = 2;
     // A sample this many times as bright as its surroundings (LampTuning) spreads all light that stands out.
     static constexpr float lamp_wholly = 6;
+    // The square of brightness over surroundings, for each pixel of the disc. From twice this on, a sample is wholly a
+    // lamp; up to it, it is none: its disc cannot be seen, and it adds a thousandth of its surroundings' square to the
+    // variance of lens points. Grass with dew, discs of 30000 sub-pixels: a third of the time and .03 dB; with .01, two
+    // fifths and .9 dB.
+    static constexpr float lamp_least_variance = 1e-3f;
     // Share of the samples around that are as bright. Up to this share, a sample can be a lamp.
     static constexpr double lamp_rare = 0.15;
     // From this share on, a sample is not a lamp.
@@ -49,6 +54,13 @@ struct GatherTuning {
     // Cells of perceptive depth. If a caster is this far in front of a lamp, the shadow of a cell is at most a
     // sixteenth of the disc's radius wide.
     static constexpr float shadow_far_cells = 16;
+    // The same in tiles without cells, at normal quality. Grass with dew and a blur of 182 sub-pixels: 16 takes 15 CPU s
+    // for a draft, and its picture is 49 dB from the one without coarse casters; 32 takes 20 s and is at 59 dB. Without
+    // coarse casters it takes 27 s.
+    static constexpr float shadow_farther_cells = 32;
+    // The sum of the squared CoCs of wide highlights, for each sample of the picture, from which on coarse casters are
+    // made for tiles without cells: they cost as much as the shadows that they save.
+    static constexpr double coarse_casters_pay = 4;
     // Perceptive. Samples no farther apart share the edge of their footprints fully; from torn_px on they share none.
     static constexpr float footprint_whole_px = 0.75f;
     // Pixels of position, of CoC and of perceptive depth. Footprints are joined if their edges differ from a common

@@ -39,7 +39,8 @@ const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedL
     const ShadowCasters &casters = search_.casters(b.set);
     const BlockFootprints::Block &block = casters.footprints.of(b.number);
     if (!casters.is_coarse()) return block.apart_from(lamp.depth, lamp.hardly);
-    return block.apart_from(search_.far_before(lamp.depth) / casters.across, lamp.far / casters.across);
+    return block.apart_from(search_.far_before(lamp.depth, lamp.lamp.coc) / casters.across,
+                            lamp.far / casters.across);
 }
 
 // Whether the shadows of a block's casters in front of a group differ from lamp to lamp.
@@ -142,7 +143,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
                           {lamp.centre, Imath::V2d(lamp.coc), box},
                           depth(farthest),
                           depth(nearest) + one_surface_px,
-                          search_.far_before(depth(nearest)),
+                          search_.far_before(depth(nearest), lamp.coc),
                           {}};
     for (const std::uint32_t h : group) {
         group_->place.extendBy(place(h));
@@ -166,9 +167,9 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     const std::uint32_t sample = highlights_.sample[highlight];
     const float depth = samples_.depth(sample);
     const Imath::V2f at = place(highlight);
-    const ShadowedLamp asked{
-        sample,  lamp(highlight), origin_, screen, depth, depth + one_surface_px, search_.far_before(depth),
-        {at, at}};
+    const Lamp lamp = this->lamp(highlight);
+    const float far = search_.far_before(depth, group_ ? group_->lamp.coc : lamp.coc);
+    const ShadowedLamp asked{sample, lamp, origin_, screen, depth, depth + one_surface_px, far, {at, at}};
     own_.any = false;
     if (!group_)
         for_each_block(asked, highlight, [&](const CastingBlock &b) {
@@ -228,7 +229,7 @@ bool HighlightShadows::casts_hardly(const ShadowedLamp &lamp, float hardly, cons
 bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
     const ShadowCasters &casters = *caster.of;
     const float farthest =
-        casters.is_coarse() ? search_.far_before(group.depth) / casters.across : group.depth;
+        casters.is_coarse() ? search_.far_before(group.depth, group.lamp.coc) / casters.across : group.depth;
     const auto &[footprint, depth, to, sample] = *caster.joined;
     if (!(depth > farthest && depth <= search_.range_of(group, casters).nearest)) return false;
     if (casts_hardly(group, group.depth + one_surface_px, caster)) return false;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 namespace sparselens {
@@ -105,6 +106,12 @@ float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besid
     return surroundings_of(std::span(levels), LampTuning::one_in);
 }
 
+// How much a disc shows: [0, 1]. `ratio`: of the lamp's brightness to its surroundings.
+float seen_of_disc(float ratio, float coc) {
+    const float unseen = GatherTuning::lamp_least_variance * std::numbers::pi_v<float> * coc * coc;
+    return ratio * ratio < 2 * unseen ? std::max(ratio * ratio / unseen - 1, 0.0f) : 1;
+}
+
 std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
     const auto level_in = [&](const std::vector<float> &levels) {
         const auto level_at = [&](int x, int y) { return levels[windows_.index(at.x + x, at.y + y)]; };
@@ -125,8 +132,9 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
                 : std::clamp((common - as_bright_.around(i, brightness)) / (common - rare), 0.0, 1.0);
         if (!(rarity > 0)) return;
         constexpr float least = LampTuning::stands_out;
-        const float wholeness = std::min((brightness / level - least) / (wholly - least), 1.0f);
-        found.push_back({i, float(rarity) * wholeness * (1 - level / brightness)});
+        const float ratio = brightness / level, coc = samples_.coc[i];
+        const float wholeness = std::min((ratio - least) / (wholly - least), 1.0f) * seen_of_disc(ratio, coc);
+        if (wholeness > 0) found.push_back({i, float(rarity) * wholeness * (1 - level / brightness)});
     });
     return found;
 }

@@ -75,16 +75,20 @@ struct Gathering {
         for (const GatherScene *one : plan.scenes()) all.try_emplace(one, *one, scene);
         return all;
     }
-    // The casters for a tile that is gathered in cells.
+    // The casters of shadows on lamps far behind them.
     std::optional<CoarseCasters> coarse_casters(const PlannedTile &tile) const {
-        if (!tile.cells) return {};
-        const auto &[samples, solids, shadows] = footprints.at(tile.scene);
-        const int across = tile.cells->across;
-        const Imath::V2f corner(tile.scene->optics->corner * across - scene.optics->corner);
-        return CoarseCasters{{tile.scene->samples, samples, float(across), corner},
-                             {tile.scene->solids, solids, float(across), corner},
+        if (!tile.caster_scene) return {};
+        const auto &[samples, solids, shadows] = footprints.at(tile.caster_scene);
+        const int across = tile.caster_cells;
+        const float far = tile.cells || options.quality == Quality::draft
+                              ? GatherTuning::shadow_far_cells
+                              : GatherTuning::shadow_farther_cells;
+        const Imath::V2f corner(tile.caster_scene->optics->corner * across - scene.optics->corner);
+        return CoarseCasters{{tile.caster_scene->samples, samples, float(across), corner},
+                             {tile.caster_scene->solids, solids, float(across), corner},
                              tile.cell_blocks.samples,
-                             tile.cell_blocks.solids};
+                             tile.cell_blocks.solids,
+                             far};
     }
     // The pixels of a tile in the picture, EXR coordinates.
     Imath::Box2i pixels_of(const PlannedTile &tile) const {

@@ -11,12 +11,6 @@
 
 namespace sparselens {
 
-namespace {
-
-constexpr float far_cells = GatherTuning::shadow_far_cells;
-
-} // namespace
-
 void ShadowSearch::begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
                          const Imath::V2d &extent, const CoarseCasters *coarse) {
     extent_ = extent;
@@ -26,6 +20,7 @@ void ShadowSearch::begin(std::span<const std::uint32_t> samples, std::span<const
     add_blocks(1, solids);
     cell_px_ = coarse ? coarse->samples.across : 0;
     if (!coarse) return;
+    far_cells_ = coarse->far_cells;
     casters_.push_back(coarse->samples);
     casters_.push_back(coarse->solids);
     add_blocks(2, coarse->blocks);
@@ -45,8 +40,10 @@ void ShadowSearch::add_blocks(std::size_t set, std::span<const std::uint32_t> bl
     std::ranges::sort(by_area_.begin() + std::ptrdiff_t(first), by_area_.end(), {}, &AreaBlocks::area);
 }
 
-float ShadowSearch::far_before(float depth) const {
-    return cell_px_ > 0 ? depth + far_cells * cell_px_ : INFINITY;
+float ShadowSearch::far_before(float depth, double coc) const {
+    return cell_px_ > 0 && std::abs(coc) >= double(GatherTuning::normal_cells * cell_px_)
+               ? depth + far_cells_ * cell_px_
+               : INFINITY;
 }
 
 ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const {

@@ -49,6 +49,7 @@ struct ShadowCasters {
 struct CoarseCasters {
     ShadowCasters samples, solids;
     std::span<const std::uint32_t> blocks, solid_blocks;
+    float far_cells; // so many cells of perceptive depth in front of a lamp, these cast its shadows
 };
 
 // A lamp, or the middle one of a group.
@@ -96,8 +97,8 @@ public:
     };
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
-    // The perceptive depth from which on coarse casters cast the shadows on a lamp at `depth`.
-    float far_before(float depth) const;
+    // The perceptive depth from which on coarse casters cast the shadows on a lamp, or on a group around it.
+    float far_before(float depth, double coc) const;
 
     // Calls visit(block), until it returns false, for the blocks that may cast a shadow on the lamp's screen: of the
     // blocks that can reach the tile, or of all blocks. Both use the same order, set by set.
@@ -120,7 +121,7 @@ private:
 
     std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
     Imath::V2d extent_{1, 1};
-    float cell_px_ = 0; // of the tile's coarse scene; 0: there is none
+    float cell_px_ = 0, far_cells_ = 0; // of the tile's coarse casters; 0: there are none
     struct AreaBlocks {
         std::size_t set, area;
         std::vector<std::uint32_t> blocks;
@@ -174,7 +175,7 @@ struct ShadowEdges {
 };
 
 inline ShadowEdges::ShadowEdges(const ShadowedLamp &lamp, float across, const Imath::V2f &corner,
-                         const Footprint &footprint) {
+                                const Footprint &footprint) {
     const auto both = [](const auto &v) { return Float4{float(v.x), float(v.x), float(v.y), float(v.y)}; };
     coc = across * load4(footprint.coc.data());
     magnified = shadow_magnification(float(lamp.lamp.coc) + Float4{}, coc, both(lamp.screen.scale));

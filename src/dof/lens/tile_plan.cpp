@@ -73,6 +73,8 @@ LensTiles tiles_of(const Windows &windows) {
     return tiles;
 }
 
+constexpr int caster_cells = cell_sizes.back();
+
 // Whether tiles may be gathered in cells: not if one lens point or a number of points is asked for, not with a holdout,
 // which has pixels of its own, and not if the field skews.
 bool has_cells(const LensGatherOptions &options, const Optics &optics) {
@@ -102,6 +104,9 @@ TilePlan::TilePlan(const GatherScene &scene, const LensGatherOptions &options, c
       sets_(options, optics_.aperture, scene.pixel_aspect()) {
     levels_.emplace_back(scene, 1);
     for (const int cells : cells_asked_for()) levels_.emplace_back(scene, cells);
+    if (!has_wide_lamps()) return;
+    if (levels_.back().across != caster_cells) levels_.emplace_back(scene, caster_cells);
+    casters_ = &levels_.back();
 }
 
 std::size_t TilePlan::count() const { return tiles_.lens_points.size() * std::size_t(parts_ * parts_); }
@@ -180,15 +185,31 @@ std::vector<int> TilePlan::cells_asked_for() const {
     return sizes;
 }
 
+// Whether the shadows in the discs of wide lamps would cost more than a coarse scene, which shortens them.
+bool TilePlan::has_wide_lamps() const {
+    if (options_.quality == Quality::final || !has_cells(options_, optics_)) return false;
+    constexpr float least = GatherTuning::normal_cells * float(caster_cells);
+    double shadowed = 0; // pixels
+    for (const std::uint32_t i : scene_.highlights.sample)
+        if (const float coc = std::abs(scene_.samples.coc[i]); coc >= least) shadowed += double(coc * coc);
+    return shadowed > GatherTuning::coarse_casters_pay * double(scene_.samples.count());
+}
+
 void TilePlan::gather_from(const Level &level, const Blur &blur, PlannedTile &tile) {
     tile.scene = &level.scene;
     Imath::V2i first = tile.first + tile.part.min;
     int size = lens_tile_size / parts_;
-    if (level.across > 1) {
-        tile.cells = cells_of_tile(tile.first, level.across);
-        first = tile.cells->first;
-        size = tile.cells->count();
-        level.blocks.find(first - level.scene.optics->corner, size, blur.stretched, tile.cell_blocks);
+    if (const Level *coarse = level.across > 1 ? &level : casters_) {
+        const TileCells cells = cells_of_tile(tile.first, coarse->across);
+        coarse->blocks.find(cells.first - coarse->scene.optics->corner, cells.count(), blur.stretched,
+                            tile.cell_blocks);
+        tile.caster_scene = &coarse->scene;
+        tile.caster_cells = coarse->across;
+        if (level.across > 1) {
+            tile.cells = cells;
+            first = cells.first;
+            size = cells.count();
+        }
     }
     tile.lens = sets_.for_coc(blur.largest, optics_.doubled(tile.first, lens_tile_size));
     if (!optics_.field.flat()) tile.lens = tile.bent = level.scene.optics->bent(tile.lens, first, size);

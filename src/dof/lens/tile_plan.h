@@ -118,7 +118,10 @@ struct PlannedTile {
     std::span<const LensSample> lens = {};
     const GatherScene *scene = nullptr;  // that it is gathered from
     std::optional<TileCells> cells = {}; // set if the scene is a coarse one
-    TileBlocks cell_blocks = {};         // the blocks of the coarse scene
+    // A coarse scene whose samples cast shadows on lamps far behind them, in cells of so many pixels; null: there is none
+    const GatherScene *caster_scene = nullptr;
+    int caster_cells = 1;
+    TileBlocks cell_blocks = {}; // the blocks of the coarse scene
     std::vector<LensSample> bent = {};
 
     TileTask task() const;
@@ -161,6 +164,7 @@ private:
     std::optional<Blur> blur_of(PlannedTile &tile) const;
     bool moved_light_reaches(const PlannedTile &tile) const;
     std::vector<int> cells_asked_for() const;
+    bool has_wide_lamps() const;
     void gather_from(const Level &level, const Blur &blur, PlannedTile &tile);
 
     const GatherScene &scene_;
@@ -171,7 +175,8 @@ private:
     const int parts_ = optics_.field.skews() ? 2 : 1;
     LensTiles tiles_;
     LensSets sets_;
-    std::list<Level> levels_; // the one of full size first
+    std::list<Level> levels_;        // the one of full size first
+    const Level *casters_ = nullptr; // for tiles without cells
 };
 
 } // namespace sparselens
