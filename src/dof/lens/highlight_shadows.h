@@ -13,7 +13,8 @@
 // each member.
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
-// front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide.
+// front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
+// they do so in all tiles, if wide lamps are many: up to a sixteenth in a draft, else up to 1/64 (tile_plan.h).
 //
 // In a picture of one view, fillers take the place of solids (fillers.h).
 #pragma once
