@@ -61,6 +61,22 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
     }
 }
 
+TEST(TakeHighlights, LeavesADiscThatIsTooWideToBeSeen) {
+    const auto share = [](double c, float shines) {
+        const auto shine = [&](int x, int y) { return x == 11 && y == 40 ? shines : 0.0f; };
+        const std::vector<float> shares = Blocked(shining_plane(48, wide, c, shine), wide).take().share;
+        EXPECT_LE(shares.size(), 1u);
+        return shares.empty() ? 0 : shares[0];
+    };
+    EXPECT_GT(share(20, 6), 0.8f);
+    EXPECT_EQ(share(150, 6), 0);
+    EXPECT_GT(share(150, 60), 0.9f);
+    const float hardly = share(150, 8.5f), more = share(150, 9.5f); // between, so that nothing pops
+    EXPECT_GT(hardly, 0);
+    EXPECT_GT(more, hardly + 0.1f);
+    EXPECT_LT(more, 0.9f);
+}
+
 TEST(TakeHighlights, ThinLayersDoNotOutvoteTheSurfaceBehindThem) {
     const auto behind_layers = [](int layers) {
         return make_ldi(windows_of_size(64, 64), rgba_channels(), [&](int x, int y) {
