@@ -103,7 +103,6 @@ void Reduced::choose_gathers(const Match &match, bool is_final) {
         resolve_looks(look_values_over(read_looks(looks, match.camera.fstop).values, match.camera.looks),
                       match.camera, lens(1, 1), ldi_.windows);
     quickly_.gather.views_radius = views_radius(match.camera);
-    quickly_.gather.lens.one_view = !match.in.deep;
     exactly_ = quickly_;
     quickly_.gather.lens.lens_samples = MatchTuning::search_points;
     if (is_final)

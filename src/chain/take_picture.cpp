@@ -135,7 +135,6 @@ private:
         by_.gather.lens.chosen = &out_.tiles;
         by_.gather.lens.across = frame_.subpixels.across;
         by_.gather.views_radius = views_radius(out_.camera);
-        by_.gather.lens.one_view = !in_.deep;
         const bool shows_pixels = request_.show == Show::picture && request_.windows.proxy == 1;
         by_.gather.lens.watch = shows_pixels && frame_.subpixels.across == 1 ? work_.watch : nullptr;
         if (in_.reduced() && merges_by_rows(in_.ldi.channels)) by_.layer_tolerance = 0; // already merged

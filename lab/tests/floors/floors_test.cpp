@@ -100,7 +100,7 @@ TEST_P(Floors, Hold) {
     const std::vector<View> views = views_of(scene);
     const Image five = gather(warped(views, scene), scene),
                 one = gather(ViewSamples(views[0], views[0].image.channels).as_ldi(), scene,
-                             {.quality = Quality::final, .one_view = true});
+                             {.quality = Quality::final});
     expect_floor(name + " from five views", five, reference);
     expect_floor(name + " from one view", one, reference);
     if (name != "macro") return;

@@ -335,9 +335,18 @@ BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::s
     const auto is_there = [&](int x, int y) { return hiding_at(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
     const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
         if (const Filler *f = hiding_at(x, y))
-            found.push_back(placed(lens, *f, x, y, std::uint32_t(ldi.pixel(f->pixel).front())));
+            found.push_back(placed(lens, *f, x, y, std::uint32_t(f - fillers.data())));
     };
-    return make_blocks(ldi.windows, is_there, place);
+    BlockedSamples hiding = make_blocks(ldi.windows, is_there, place);
+    hiding.named.resize(hiding.count());
+    parallel_ranges(hiding.count(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const Filler &filler = fillers[hiding.source[n]];
+            hiding.source[n] = std::uint32_t(ldi.pixel(filler.pixel).front());
+            hiding.named[n] = place_of(samples, ldi, filler.part[0].pixel, filler.part[0].sample);
+        }
+    });
+    return hiding;
 }
 
 } // namespace sparselens

@@ -64,12 +64,12 @@ struct FillerSamples {
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                             const BlockedSamples &samples, const SampleColours &colours);
 
-// Returns the fillers that hide lamps in a picture of one view (highlight_shadows.h). Such a picture shows a surface as
-// far as something nearer hides the rest. A lens point that looks behind the nearer thing would see lamps beside the
-// surface, but the surface may continue there. So its filler hides lamps. This holds if the ground, in the last pixel
-// that shows it, is one surface with most of the three by three pixels around: hair is thinner, and covers less than its
-// pixels show. It does not hold if the ground is a highlight. `samples` and `highlights` are as in Highlights::sample.
-// The result's `source` is the front sample of the pixel.
+// Returns the fillers that hide lamps (highlight_shadows.h). Views show a surface as far as something nearer hides the
+// rest. A lens point that looks behind the nearer thing would see lamps beside the surface, but the surface may continue
+// there. So its filler hides lamps. This holds if the ground, in the last pixel that shows it, is one surface with most
+// of the three by three pixels around: hair is thinner, and covers less than its pixels show. It does not hold if the
+// ground is a highlight. `samples` and `highlights` are as in Highlights::sample. The result's `source` is the front
+// sample of the pixel, and `named` the one of `samples` that the filler shows.
 BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                                     const BlockedSamples &samples, std::span<const std::uint32_t> highlights);
 

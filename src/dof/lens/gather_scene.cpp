@@ -74,7 +74,8 @@ void take_highlights(GatherScene &scene, const LensGatherOptions &options) {
                                        seen_of(options, scene.held_out.corner));
 }
 
-// Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them.
+// Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them, and tells
+// whether there are lamps to hide.
 template <typename Treat>
 void complete(GatherScene &scene, const Treat &treat, const Progress &progress) {
     const Ldi &ldi = *scene.ldi;
@@ -84,10 +85,10 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     LargeArray<Filler> fillers = find_fillers(ldi, scene.lens, scene.known);
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
-    treat();
-    scene.solids = scene.one_view
-                       ? place_hiding_fillers(ldi, scene.lens, fillers, samples, scene.highlights.sample)
-                       : place_solids(ldi, scene.lens, samples);
+    if (treat())
+        scene.hiding = place_hiding_fillers(ldi, scene.lens, fillers, samples, scene.highlights.sample);
+    optics.bend(scene.hiding);
+    scene.solids = place_solids(ldi, scene.lens, samples);
     optics.bend(scene.solids);
     scene.fillers = place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours);
     optics.bend(scene.fillers.samples);
@@ -145,17 +146,17 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
                     const LensGatherOptions &options, double coc, const Progress &progress) {
     GatherScene scene = placed_for(ldi, lens, window, options, coc);
     scene.held_out.by = options.holdout;
-    scene.one_view = options.one_view;
     if (is_sharp(scene.samples, *scene.optics)) return scene;
     progress.may_end();
     const auto treat = [&] {
-        if (options.point) return;
+        if (options.point) return false;
         const SharpenLooks looks{scene.optics->aperture, scene.optics->field, coc, options.seen};
         sharpen_near_focus(ldi, lens, scene.samples, scene.colours, &looks);
         progress.may_end();
         take_highlights(scene, options);
         if (options.paths)
             spread_along(*options.paths, scene.samples, scene.held_out.corner, scene.highlights);
+        return !scene.highlights.sample.empty();
     };
     complete(scene, treat, progress);
     if (options.point) paint(scene.fillers.colours, scene.colours.sets, ldi.alpha());
@@ -178,8 +179,7 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const LensLooks looks = smaller(scene.optics->looks, large.windows, small->windows, across);
     GatherScene coarse =
         placed(*small, lens, looks, scene.optics->coc / across, {small->windows.data, unseen});
-    coarse.one_view = scene.one_view;
-    complete(coarse, [] {}, {});
+    complete(coarse, [&] { return !scene.highlights.sample.empty(); }, {});
     coarse.known.unseen = {};
     for (std::size_t k = 0; k < small->values.size(); ++k)
         if (k != small->alpha()) small->values[k] = {};

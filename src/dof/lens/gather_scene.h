@@ -98,8 +98,8 @@ struct GatherScene {
     Highlights highlights;
     FillerSamples fillers;
     PlacedFacets facets;
-    BlockedSamples solids = {};             // place_solids(); of one view: place_hiding_fillers()
-    bool one_view = false;                  // then the solids are not seen: they only hide lamps
+    BlockedSamples solids = {};             // place_solids()
+    BlockedSamples hiding = {};             // place_hiding_fillers(): not seen, they only hide lamps
     std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene: its LDI, with values of A alone
 
     // The cat-eye if pixels see through only some lens points, else null.

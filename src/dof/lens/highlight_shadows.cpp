@@ -59,15 +59,14 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     return false;
 }
 
-void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
-                             std::span<const std::uint32_t> solids, double pixel_aspect,
+void HighlightShadows::begin(const Imath::V2i &origin, const CasterBlocks &blocks, double pixel_aspect,
                              const Imath::V2d &extent, const CoarseCasters *coarse,
                              const ShadowLists *lists) {
     origin_ = origin;
     pixel_aspect_ = pixel_aspect;
     extent_ = extent;
     lists_ = lists;
-    search_.begin(samples, solids, extent, coarse);
+    search_.begin(blocks, extent, coarse);
 }
 
 Imath::V2f HighlightShadows::place(std::uint32_t highlight) const {

@@ -16,7 +16,7 @@
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
 // they do so in all tiles, if wide lamps are many: up to a sixteenth in a draft, else up to 1/64 (tile_plan.h).
 //
-// In a picture of one view, fillers take the place of solids (fillers.h).
+// Solids and the fillers that hide lamps (fillers.h) cast shadows as samples do.
 #pragma once
 
 #include "dof/lens/highlights.h"
@@ -38,16 +38,16 @@ namespace sparselens {
 
 class HighlightShadows {
 public:
-    // `samples`: those that Highlights::sample refers to. `solids` (sample_blocks.h) cast shadows as well.
-    HighlightShadows(const Highlights &highlights, const ShadowCasters &samples, const ShadowCasters &solids)
-        : highlights_(highlights), samples_(samples.samples), search_(samples, solids) {}
+    // The first of the sets are the samples that Highlights::sample refers to.
+    HighlightShadows(const Highlights &highlights, const CasterSets &sets)
+        : highlights_(highlights), samples_(sets.front().samples), search_(sets) {}
 
-    // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `samples`, `solids`: the
-    // blocks that can reach it. `extent`: of the lens, pixels per pixel of CoC. `coarse`: given if the tile is gathered
+    // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `blocks`: those
+    // that can reach it. `extent`: of the lens, pixels per pixel of CoC. `coarse`: given if the tile is gathered
     // in cells. `lists`: shared by the tiles that are gathered from the same scene.
-    void begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
-               std::span<const std::uint32_t> solids, double pixel_aspect, const Imath::V2d &extent,
-               const CoarseCasters *coarse = nullptr, const ShadowLists *lists = nullptr);
+    void begin(const Imath::V2i &origin, const CasterBlocks &blocks, double pixel_aspect,
+               const Imath::V2d &extent, const CoarseCasters *coarse = nullptr,
+               const ShadowLists *lists = nullptr);
 
     // Below, a highlight is given by its index in Highlights.
     // Finds the shadows that the members of a group share, in the pixels of a box. cast() adds the other shadows of

@@ -32,12 +32,10 @@ double square_of(const Lamp &lamp) {
 
 } // namespace
 
-HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
-                             const BlockFootprints &solid_footprints)
-    : scene_(scene),
-      shadows_(scene.highlights, {scene.samples, footprints}, {scene.solids, solid_footprints}),
-      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size), together_(light_.size()),
-      whole_(sets_.size()), whole_together_(sets_.size()) {
+HighlightTile::HighlightTile(const GatherScene &scene, const CasterSets &casters)
+    : scene_(scene), shadows_(scene.highlights, casters), half_extent_(aperture_.half_extent()),
+      light_(sets_.size() * size * size), together_(light_.size()), whole_(sets_.size()),
+      whole_together_(sets_.size()) {
     half_extent_.y *= scene.pixel_aspect();
 }
 
@@ -47,19 +45,18 @@ bool HighlightTile::dark(int x, int y) const {
     return true;
 }
 
-void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                           std::span<const std::uint32_t> solids, const CoarseCasters *coarse,
+void HighlightTile::spread(const Imath::V2i &origin, const CasterBlocks &blocks, const CoarseCasters *coarse,
                            const ShadowLists *lists) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect(), half_extent_, coarse, lists);
+    shadows_.begin(origin, blocks, scene_.pixel_aspect(), half_extent_, coarse, lists);
     const auto spread_all = [&](std::span<const std::uint32_t> group) {
         if (!scene_.optics->field.skews()) return spread_group(group);
         for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
     };
-    for (const std::uint32_t b : blocks) highlights_.groups.for_each(b, spread_all);
+    for (const std::uint32_t b : blocks.front()) highlights_.groups.for_each(b, spread_all);
     for_each_moved(scene_, origin, spread_all);
     add_lit();
 }

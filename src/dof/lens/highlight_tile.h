@@ -24,15 +24,12 @@ namespace sparselens {
 
 class HighlightTile {
 public:
-    // The footprints of the scene's samples, and of its solids.
-    HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
-                  const BlockFootprints &solid_footprints);
+    // `casters`: of the scene.
+    HighlightTile(const GatherScene &scene, const CasterSets &casters);
 
     // Spreads highlights over the tile whose first pixel is `origin`, relative to the data window's corner like the
-    // samples. `blocks`, `solids`: the blocks of samples and of solids that can reach it. `coarse`: given if the tile
-    // is gathered in cells.
-    void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr,
+    // samples. `blocks`: those that can reach it. `coarse`: given if the tile is gathered in cells.
+    void spread(const Imath::V2i &origin, const CasterBlocks &blocks, const CoarseCasters *coarse = nullptr,
                 const ShadowLists *lists = nullptr);
 
     // The light at a pixel of the tile. dark(): no light reaches it.

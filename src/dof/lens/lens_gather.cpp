@@ -46,13 +46,18 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-// Footprints of all samples and solids of a scene, and the shadow lists of the highlights in its tiles.
+// Footprints of all that casts shadows in a scene, and the shadow lists of the highlights in its tiles.
 struct SceneFootprints {
-    BlockFootprints samples, solids;
+    BlockFootprints samples, solids, hiding;
     ShadowLists shadows;
     SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
         : samples(*scene.ldi, scene.samples, Links(*scene.ldi, scene.lens)), solids(*scene.ldi, scene.solids),
-          shadows(of_highlights.highlights, of_highlights.samples) {}
+          hiding(*scene.ldi, scene.hiding), shadows(of_highlights.highlights, of_highlights.samples) {}
+    CasterSets casters(const GatherScene &scene, float across = 1, const Imath::V2f &corner = {0, 0}) const {
+        return {{scene.samples, samples, across, corner},
+                {scene.solids, solids, across, corner},
+                {scene.hiding, hiding, across, corner}};
+    }
 };
 
 // The picture that the tiles of a plan make.
@@ -64,10 +69,8 @@ struct Gathering {
     LensTiles chosen = plan.tiles();
     Darkening darkening{scene.optics->cat_eye, *scene.ldi, out.windows};
     std::map<const GatherScene *, SceneFootprints> footprints = footprints_of_all();
-    tbb::enumerable_thread_specific<HighlightTile> lamps{[this] {
-        const SceneFootprints &of = footprints.at(&scene);
-        return HighlightTile(scene, of.samples, of.solids);
-    }};
+    tbb::enumerable_thread_specific<HighlightTile> lamps{
+        [this] { return HighlightTile(scene, footprints.at(&scene).casters(scene)); }};
     std::vector<std::size_t> gathered = averaged_channels(out);
 
     std::map<const GatherScene *, SceneFootprints> footprints_of_all() const {
@@ -78,17 +81,14 @@ struct Gathering {
     // The casters of shadows on lamps far behind them.
     std::optional<CoarseCasters> coarse_casters(const PlannedTile &tile) const {
         if (!tile.caster_scene) return {};
-        const auto &[samples, solids, shadows] = footprints.at(tile.caster_scene);
         const int across = tile.caster_cells;
         const float far = tile.cells || options.quality == Quality::draft
                               ? GatherTuning::shadow_far_cells
                               : GatherTuning::shadow_farther_cells;
         const Imath::V2f corner(tile.caster_scene->optics->corner * across - scene.optics->corner);
-        return CoarseCasters{{tile.caster_scene->samples, samples, float(across), corner},
-                             {tile.caster_scene->solids, solids, float(across), corner},
-                             tile.cell_blocks.samples,
-                             tile.cell_blocks.solids,
-                             far};
+        return CoarseCasters{
+            footprints.at(tile.caster_scene).casters(*tile.caster_scene, float(across), corner),
+            tile.cell_blocks.casters(), far};
     }
     // The pixels of a tile in the picture, EXR coordinates.
     Imath::Box2i pixels_of(const PlannedTile &tile) const {
@@ -108,8 +108,8 @@ struct Gathering {
         chosen.lens_points[tile.tile] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
         const std::optional<CoarseCasters> coarse = coarse_casters(tile);
-        lit.spread(tile.first - scene.optics->corner, tile.blocks.samples, tile.blocks.solids,
-                   coarse ? &*coarse : nullptr, &footprints.at(tile.scene).shadows);
+        lit.spread(tile.first - scene.optics->corner, tile.blocks.casters(), coarse ? &*coarse : nullptr,
+                   &footprints.at(tile.scene).shadows);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // If the few lens points of a pixel all miss, it stays sharp, which is better than black.

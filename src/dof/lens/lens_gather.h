@@ -70,7 +70,6 @@ struct LensGatherOptions {
     std::optional<Imath::Box2i> known = {};
     std::span<const char> unseen = {};
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
-    bool one_view = false;   // the LDI is the picture of one view: fillers hide lamps (fillers.h)
     bool keeps_sums = false; // sums of channels: in tiles gathered in cells, each may leave its range
     const Holdout *holdout = nullptr; // hides the picture behind it
     const TileWatch *watch = nullptr; // if given

@@ -11,20 +11,16 @@
 
 namespace sparselens {
 
-void ShadowSearch::begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
-                         const Imath::V2d &extent, const CoarseCasters *coarse) {
+void ShadowSearch::begin(const CasterBlocks &blocks, const Imath::V2d &extent, const CoarseCasters *coarse) {
     extent_ = extent;
     by_area_.clear();
-    while (casters_.size() > 2) casters_.pop_back();
-    add_blocks(0, samples);
-    add_blocks(1, solids);
-    cell_px_ = coarse ? coarse->samples.across : 0;
+    while (casters_.size() > own_) casters_.pop_back();
+    for (std::size_t set = 0; set < own_; ++set) add_blocks(set, blocks[set]);
+    cell_px_ = coarse ? coarse->sets.front().across : 0;
     if (!coarse) return;
     far_cells_ = coarse->far_cells;
-    casters_.push_back(coarse->samples);
-    casters_.push_back(coarse->solids);
-    add_blocks(2, coarse->blocks);
-    add_blocks(3, coarse->solid_blocks);
+    for (const ShadowCasters &set : coarse->sets) casters_.push_back(set);
+    for (std::size_t set = own_; set < casters_.size(); ++set) add_blocks(set, coarse->blocks[set - own_]);
 }
 
 // Adds the blocks in the order of all areas.

@@ -22,6 +22,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -45,10 +46,14 @@ struct ShadowCasters {
     bool is_coarse() const { return across > 1; }
 };
 
-// The samples of a coarse scene that can reach a tile.
+// The samples of a scene first, then its solids, then its fillers that hide lamps; and blocks of each.
+using CasterSets = std::vector<ShadowCasters>;
+using CasterBlocks = std::vector<std::span<const std::uint32_t>>;
+
+// The casters of a coarse scene that can reach a tile.
 struct CoarseCasters {
-    ShadowCasters samples, solids;
-    std::span<const std::uint32_t> blocks, solid_blocks;
+    CasterSets sets;
+    CasterBlocks blocks;
     float far_cells; // so many cells of perceptive depth in front of a lamp, these cast its shadows
 };
 
@@ -84,11 +89,10 @@ struct CastingBlock {
 
 class ShadowSearch {
 public:
-    ShadowSearch(const ShadowCasters &samples, const ShadowCasters &solids) : casters_{samples, solids} {}
+    explicit ShadowSearch(CasterSets sets) : casters_(std::move(sets)), own_(casters_.size()) {}
 
     // Begins a tile, with the blocks that can reach it. `extent`: of the lens, pixels per pixel of CoC.
-    void begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
-               const Imath::V2d &extent, const CoarseCasters *coarse);
+    void begin(const CasterBlocks &blocks, const Imath::V2d &extent, const CoarseCasters *coarse);
 
     const ShadowCasters &casters(std::size_t set) const { return casters_[set]; }
     // The range of perceptive depths, in the pixels of a set of casters, in which its casters cast shadows.
@@ -119,7 +123,8 @@ private:
     Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds,
                            const CocRange &cocs) const;
 
-    std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
+    CasterSets casters_; // and those of the tile's coarse scene
+    std::size_t own_;    // how many of them are not coarse
     Imath::V2d extent_{1, 1};
     float cell_px_ = 0, far_cells_ = 0; // of the tile's coarse casters; 0: there are none
     struct AreaBlocks {

@@ -6,6 +6,7 @@
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/lens/sample_blocks.h"
+#include "dof/lens/shadow_search.h"
 #include "lens/aperture.h"
 #include "lens/lens_samples.h"
 
@@ -57,7 +58,8 @@ private:
 };
 
 struct TileBlocks {
-    std::vector<std::uint32_t> samples, facets, fillers, solids;
+    std::vector<std::uint32_t> samples, facets, fillers, solids, hiding;
+    CasterBlocks casters() const { return {samples, solids, hiding}; }
 };
 
 class SceneBlocks {
@@ -72,7 +74,7 @@ public:
 
 private:
     const GatherScene &scene_;
-    BlockFinder samples_, fillers_, solids_;
+    BlockFinder samples_, fillers_, solids_, hiding_;
 };
 
 // The sets of lens points that tiles choose from. Each is made when it is first asked for, by any thread.

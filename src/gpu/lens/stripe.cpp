@@ -57,7 +57,7 @@ struct Ranges {
         samples.add_all(scene.samples);
         fillers.add_all(scene.fillers.samples);
         facets.add_all(scene.facets);
-        if (!scene.one_view) solids.add_all(scene.solids);
+        solids.add_all(scene.solids);
     }
     std::size_t sample_count(const GatherScene &scene) const {
         return samples.count(scene.samples) + fillers.count(scene.fillers.samples);

@@ -71,9 +71,9 @@ struct LampBehindBoards : BlockedLdi {
     // The lit share at each pixel of the tile at `origin`, for each sample of the lamp in turn.
     std::vector<float> lit(bool together, const Imath::V2i &origin = {0, 0},
                            const ShadowLists *lists = nullptr) {
-        HighlightShadows shadows(highlights, {samples, footprints}, {solids, solid_footprints});
-        shadows.begin(origin, blocks, solids.blocks.empty() ? std::span<const std::uint32_t>() : blocks, 1,
-                      {1, 1}, nullptr, lists);
+        HighlightShadows shadows(highlights, {{samples, footprints}, {solids, solid_footprints}});
+        const std::span<const std::uint32_t> none;
+        shadows.begin(origin, {blocks, solids.blocks.empty() ? none : blocks}, 1, {1, 1}, nullptr, lists);
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);
