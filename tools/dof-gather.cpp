@@ -1,5 +1,4 @@
 // dof-gather: computes the picture that a lens takes from a layered depth image.
-#include "base/kept.h"
 #include "chain/devices.h"
 #include "chain/notices.h"
 #include "chain/take_moments.h"
@@ -11,9 +10,9 @@
 
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 using namespace sparselens;
 
@@ -45,43 +44,29 @@ Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
     TakenPicture made = take_moments(cache, tool.keeps, options, {*tool.progress, tool.tell(), &device});
     append_history(made.header, tool, options.history);
-    *tool.last_step = [&tool, stats = gather_stats(cache, made), made = std::move(made),
-                       output = options.output, depth_output = options.depth_output, type = options.type,
-                       colour = options.colour, compression = options.compression,
-                       in_tiles = options.tiles]() mutable {
-        if (!depth_output.empty())
-            write_flat_exr(depth_output, made.depth, made.header, compression, in_tiles);
-        tell_clamped(tool.tell(), output,
-                     write_picture(tool.tell(), colour, output, in_type(std::move(made.image), type),
-                                   made.header, compression, in_tiles));
-        write_stats(tool, stats);
-    };
+    const Stats stats = gather_stats(cache, made);
+    if (!options.depth_output.empty())
+        write_flat_exr(options.depth_output, made.depth, made.header, options.compression, options.tiles);
+    tell_clamped(tool.tell(), options.output,
+                 write_picture(tool.tell(), options.colour, options.output,
+                               in_type(std::move(made.image), options.type), made.header, options.compression,
+                               options.tiles));
+    write_stats(tool, stats);
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    // Frames of one file share its LDI, so that a focus pull over one file reads it once.
-    Kept<std::string, std::shared_ptr<LdiCache>> caches(1);
-    std::mutex guard; // for `caches`
-    const auto cache_of = [&](const std::string &input) {
-        const std::lock_guard lock(guard);
-        return caches.get(input, [](const std::string &) { return std::make_shared<LdiCache>(); });
-    };
+    LdiCache cache; // frames of one file share its LDI, so that a focus pull over one file reads it once
     GatherDevice device;
-    return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
-                      argc, argv, [&](CLI::App &app) {
-                          const auto options = std::make_shared<GatherCommand>();
-                          add_gather_options(app, *options);
-                          return Job{.work =
-                                         [&cache_of, &device, options](const ToolContext &tool) {
-                                             run(*options, tool, *cache_of(options->input), device);
-                                         },
-                                     .keeps =
-                                         [options] {
-                                             const std::string kept = kept_device(options->device);
-                                             return kept.empty() ? options->input : kept;
-                                         },
-                                     .joins_moments = true};
-                      });
+    return run_frames(
+        "dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)", argc, argv,
+        [&](CLI::App &app) {
+            const auto options = std::make_shared<GatherCommand>();
+            add_gather_options(app, *options);
+            return Job{.work = [&cache, &device,
+                                options](const ToolContext &tool) { run(*options, tool, cache, device); },
+                       .keeps = [options] { return options->input; },
+                       .joins_moments = true};
+        });
 }

@@ -32,11 +32,9 @@ void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &dev
         request.placed.emplace_back(view_offset(position), file);
     MadeLdi made = make_ldi(request, {*tool.progress, tool.tell(), &device});
     append_history(made.header, tool, options.history);
-    *tool.last_step = [&tool, made = std::move(made), output = options.output,
-                       compression = options.compression] {
-        tell_clamped(tool.tell(), output, write_ldi(output, made.ldi, made.header, compression));
-        write_stats(tool, warp_stats(made));
-    };
+    tell_clamped(tool.tell(), options.output,
+                 write_ldi(options.output, made.ldi, made.header, options.compression));
+    write_stats(tool, warp_stats(made));
 }
 
 // Each step reuses the memory that the step before freed, whatever its size. Without this, the kernel clears most pages
@@ -54,7 +52,6 @@ int main(int argc, char **argv) {
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<WarpCommand>();
             add_warp_options(app, *options);
-            return Job{.work = [options, &device](const ToolContext &tool) { run(*options, tool, device); },
-                       .keeps = [options] { return kept_device(options->device); }};
+            return Job{[options, &device](const ToolContext &tool) { run(*options, tool, device); }};
         });
 }

@@ -2,8 +2,8 @@
 # tables show how the picture changes (dB of the whole, and of its worst blocks) and what the tools then cost (user CPU
 # seconds; runs with and without it alternate, and the least of three counts). They have: whole pictures at final
 # quality from five views; inputs that some techniques were made for; seconds; views of once and four times the size of
-# a picture of 320x180; frames of a sequence. An hour on two cores, half of it for building and tracing; with --keep,
-# what a run that was ended has measured is not measured again. Needs openimageio-tools and the views of ../shared.
+# a picture of 320x180. An hour on two cores, half of it for building and tracing; with --keep, what a run that was
+# ended has measured is not measured again. Needs openimageio-tools and the views of ../shared.
 . "$(dirname "$0")/common.inc" "$1"
 . "$(dirname "$0")/variants.inc"
 traced=(fence grass mirror) rendered=(yard pelt street macro pinecone porch)
@@ -163,7 +163,7 @@ warps=
 without "visibility at every lens point (\`--method selective\`)" measure base "" "--method selective"
 while IFS='|' read -r label file what instead; do
     case $file in src/dof/*) warps= ;; src/warp/*) warps=only ;; *) warps=yes ;; esac
-    [[ $file == tools/* ]] || without "$label" variant "$file" "$what" "$instead" measure source/build/bin "" ""
+    without "$label" variant "$file" "$what" "$instead" measure source/build/bin "" ""
 done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")
 printf '\nInputs that some techniques were made for:\n\n'
 cat parts.md
@@ -171,30 +171,3 @@ printf '\nUser CPU seconds of `ldi-warp` / `dof-gather`, and their changes in pe
 cat seconds.md
 printf '\nOf 320x180 at normal quality, with the same rays in views of once and four times the size:\n\n'
 cat sizes.md
-
-# Sequences of six frames, each with files of its own.
-for f in 1 2 3 4 5 6; do
-    ln -sfn fence.ldi.exr frame.$f.ldi.exr
-    for view in fence/*.exr; do ln -sfn "$view" "$(basename "$view" .exr).$f.exr"; done
-done
-sequence() { # BIN: wall and user CPU seconds of ldi-warp and dof-gather
-    local TIMEFORMAT='%R %U'
-    { time "$1/ldi-warp" center.%d.exr view_{0..3}.%d.exr --frames 1-6 -o warped.%d.exr >log 2>&1; } 2>warp.s || { cat log >&2 && return 1; }
-    { time "$1/dof-gather" frame.%d.ldi.exr --frames 1-6 -o gathered.%d.exr >log 2>&1; } 2>gather.s || { cat log >&2 && return 1; }
-    paste -d ' ' warp.s gather.s
-}
-sequences() { # LABEL
-    local round
-    for round in 1 2 3; do
-        sequence base | tr '\n' ' '
-        sequence source/build/bin
-    done | awk -v label="$1" '{ for (i = 1; i <= 8; ++i) if (NR == 1 || $i < least[i]) least[i] = $i }
-        END { printf "| %s |", label
-            for (i = 1; i <= 4; ++i) printf " %.2f, without it %.2f |", least[i], least[i + 4]
-            print "" }'
-}
-printf '\nSix frames of fence at normal quality, seconds:\n\n'
-head_of "\`ldi-warp\`, wall" CPU "\`dof-gather\`, wall" CPU
-while IFS='|' read -r label file what instead; do
-    [[ $file != tools/* ]] || variant "$file" "$what" "$instead" sequences "$label"
-done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")

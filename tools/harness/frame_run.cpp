@@ -1,5 +1,3 @@
-#include "harness/frame_run.h"
-
 #include "base/error.h"
 #include "harness/commands/each_picture.h"
 #include "harness/commands/frames.h"
@@ -12,8 +10,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,71 +21,6 @@
 #include <utility>
 
 namespace sparselens {
-
-bool FrameRun::go_on(const Frame &frame) {
-    std::size_t n = 0;
-    {
-        std::unique_lock lock(guard_);
-        n = begun_;
-        moved_.wait(lock, [&] {
-            return ended_ == n || (ended_ + 1 == n && (frame.beside || at_work_[(n - 1) % 2].worked));
-        });
-        if (stopped_) return false;
-        at_work_[n % 2] = {frame.take_turn};
-        ++begun_;
-        pass_turns();
-    }
-    std::future<void> &thread = threads_[n % 2]; // frame n - 2, which used it, has ended
-    if (frame.aside) try {
-            thread = std::async(std::launch::async, [this, frame, n] { run(frame, n); });
-            return true;
-        } catch (const std::system_error &) { // no thread is available
-        }
-    run(frame, n);
-    return !stopped();
-}
-
-void FrameRun::run(const Frame &frame, std::size_t n) {
-    std::exception_ptr failure;
-    try {
-        frame.work();
-    } catch (...) {
-        failure = std::current_exception();
-    }
-    std::unique_lock lock(guard_);
-    at_work_[n % 2].worked = !failure;
-    pass_turns();
-    moved_.notify_all();
-    moved_.wait(lock, [&] { return ended_ == n; });
-    if (!stopped_) {
-        lock.unlock();
-        const int code = frame.end(failure);
-        lock.lock();
-        worst_ = std::max(worst_, code);
-        stopped_ = !is_well(code);
-    }
-    ++ended_;
-    pass_turns();
-    moved_.notify_all();
-}
-
-void FrameRun::pass_turns() {
-    for (; !stopped_ && turns_ < begun_; ++turns_) {
-        if (turns_ > ended_ && !at_work_[(turns_ - 1) % 2].worked) return;
-        at_work_[turns_ % 2].take_turn();
-    }
-}
-
-int FrameRun::worst() {
-    for (std::future<void> &thread : threads_)
-        if (thread.valid()) thread.get();
-    return worst_;
-}
-
-bool FrameRun::stopped() const {
-    const std::lock_guard lock(guard_);
-    return stopped_;
-}
 
 namespace {
 
@@ -179,47 +110,20 @@ bool has_outputs(const FrameCommand &command, const ToolContext &tool) {
     return true;
 }
 
-using Tool = std::shared_ptr<ToolContext>;
-
-// Prints a stage for a farm. Output of one frame precedes that of the next, so that the percentages grow.
+// Prints a stage for a farm.
 void say_stage(ProgressFormat format, const ToolContext &tool, const char *stage) {
     if (format == ProgressFormat::terminal) return;
     tool.progress->start(stage, 1);
     tool.progress->advance();
 }
 
-bool has_threads() {
-    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1;
-}
-
-// The largest memory use of the process so far, in bytes.
-std::uint64_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return std::uint64_t(usage.ru_maxrss) * 1024;
-}
-
-// The number of bytes that each frame reads from files.
-std::vector<std::uint64_t> bytes_read(const std::vector<NamedFiles> &frames) {
-    std::vector<std::uint64_t> bytes;
-    for (const NamedFiles &frame : frames) {
-        bytes.push_back(0);
-        for (const NamedFile &input : frame.inputs) {
-            std::error_code unknown;
-            const std::uintmax_t size = std::filesystem::file_size(input.path, unknown);
-            if (!unknown) bytes.back() += size;
-        }
-    }
-    return bytes;
-}
-
-Tool context_of(const std::string &name, const FrameCommand &command) {
-    const auto tool = std::make_shared<ToolContext>();
-    tool->tool_name = name;
-    tool->threads = command.process.threads;
-    tool->verbose = command.process.verbose;
-    tool->max_memory = command.process.max_memory;
-    tool->stats = command.frames.stats;
+ToolContext context_of(const std::string &name, const FrameCommand &command) {
+    ToolContext tool;
+    tool.tool_name = name;
+    tool.threads = command.process.threads;
+    tool.verbose = command.process.verbose;
+    tool.max_memory = command.process.max_memory;
+    tool.stats = command.frames.stats;
     return tool;
 }
 
@@ -238,64 +142,41 @@ int run_words(const std::string &name, const std::string &description, const std
     // Usage errors of any frame are reported before work on the first frame begins.
     CommandPtr first, other;
     std::vector<NamedFiles> files;
-    std::vector<std::optional<std::string>> keeps;
+    std::vector<std::string> keeps; // what each frame keeps for the next
     for (std::size_t i = 0; i < count; ++i) {
         CommandPtr &parsed = i == 0 ? first : other;
         if (const auto answered = parse(i, parsed)) return *answered;
         files.push_back(named_files(parsed->app));
-        keeps.push_back(parsed->job.keeps ? std::optional(parsed->job.keeps()) : std::nullopt);
+        keeps.push_back(parsed->job.keeps ? parsed->job.keeps() : "");
     }
     code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
     if (code != 0) return code;
-    for (const std::string &text : commands->warnings()) warn(*context_of(name, *first), text);
+    for (const std::string &text : commands->warnings()) warn(context_of(name, *first), text);
 
     const ProgressFormat format = first->frames.progress;
-    const Process process(first->process, *context_of(name, *first));
-    const FrameNeighbours neighbours(std::move(keeps));
-    const std::uint64_t memory = memory_for_frames(first->process.max_memory);
-    TwoAtOnce two_at_once(bytes_read(files), memory);
-    FrameRun run(first->frames.skip_bad_frames);
+    const Process process(first->process, context_of(name, *first));
     const auto warned = std::make_shared<std::set<std::string>>();
-    bool go_on = true;
-    for (std::size_t i = 0; i < count && go_on; ++i) {
-        CommandPtr parsed;
-        parse(i, parsed);
-        const std::shared_ptr<FrameCommand> command = std::move(parsed);
-        const Tool tool = context_of(name, *command);
-        if (commands->is_range()) tool->frame = commands->number(i);
-        tool->other_frame = [all = &*commands, i](const std::string &word, int later) {
-            return all->other_frame(i, word, later);
+    int worst = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        CommandPtr command;
+        parse(i, command);
+        ToolContext tool = context_of(name, *command);
+        if (commands->is_range()) tool.frame = commands->number(i);
+        tool.other_frame = [&commands, i](const std::string &word, int later) {
+            return commands->other_frame(i, word, later);
         };
-        tool->keeps = neighbours.keeps_for_next(i);
-        const bool two_fit = two_at_once.fit(i, peak_memory());
-        tool->warned = warned;
-        tool->turn = std::make_shared<InTurn>(false);
-        tool->command_line = command_line(name, commands->words(i));
-        tool->progress = progress_of(format, name, {i, count, tool->frame}, tool->turn, [&run] {
-            if (run.stopped()) throw Error("a frame before it failed");
+        tool.keeps = i + 1 < count && !keeps[i].empty() && keeps[i] == keeps[i + 1];
+        tool.warned = warned;
+        tool.command_line = command_line(name, commands->words(i));
+        tool.progress = progress_of(format, name, {i, count, tool.frame});
+        code = exit_code_of(prefix + frame_name(*commands, i), [&] {
+            if (!command->frames.skip_existing || !has_outputs(*command, tool)) command->job.work(tool);
+            say_stage(format, tool, "done");
         });
-        const bool aside = i + 1 < count && has_threads();
-        const auto work = [=] {
-            if (!command->frames.skip_existing || !has_outputs(*command, *tool)) command->job.work(*tool);
-            if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
-        };
-        const auto last_step = [=] {
-            if (const auto step = std::exchange(*tool->last_step, {})) step();
-            if (!aside) say_stage(format, *tool, "done");
-        };
-        const auto end = [=, frame_prefix = prefix + frame_name(*commands, i)](std::exception_ptr failure) {
-            return exit_code_of(frame_prefix, [&] {
-                if (failure) std::rethrow_exception(failure);
-                last_step();
-            });
-        };
-        go_on = run.go_on({.work = work,
-                           .take_turn = [tool] { tool->turn->come(); },
-                           .end = end,
-                           .beside = two_fit && neighbours.are_apart(i),
-                           .aside = aside});
+        worst = std::max(worst, code);
+        if (code != 0 && !(code == 1 && first->frames.skip_bad_frames)) break;
     }
-    return run.worst();
+    return worst;
 }
 
 // The names of the views or layers in the first input of the command.

@@ -67,15 +67,11 @@ std::string error_prefix(ProgressFormat format, const std::string &tool_name) {
     return (format == ProgressFormat::openjd ? "openjd_fail: " : "") + tool_name + ": ";
 }
 
-std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames,
-                                      const std::shared_ptr<InTurn> &turn, Progress::Watch watch) {
-    const Progress::Listener listener = format == ProgressFormat::terminal
-                                            ? terminal_listener(tool_name)
-                                            : farm_listener(format, tool_name, frames);
-    if (!listener) return std::make_unique<Progress>(listener, std::move(watch));
-    return std::make_unique<Progress>(
-        [=](const std::string &stage, int percent) { turn->say([=] { listener(stage, percent); }); },
-        std::move(watch));
+std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name,
+                                      FrameCount frames) {
+    return std::make_unique<Progress>(format == ProgressFormat::terminal
+                                          ? terminal_listener(tool_name)
+                                          : farm_listener(format, tool_name, frames));
 }
 
 } // namespace sparselens

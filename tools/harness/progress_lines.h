@@ -7,42 +7,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace sparselens {
-
-// Prints the messages of frames in order: messages of a later frame are kept until its turn.
-class InTurn {
-public:
-    explicit InTurn(bool come) : come_(come) {}
-
-    // Calls `line` now or when the turn comes, one at a time. `line` must not call say().
-    void say(std::function<void()> line) {
-        const std::lock_guard lock(guard_);
-        if (come_)
-            line();
-        else
-            kept_.push_back(std::move(line));
-    }
-
-    void come() {
-        const std::lock_guard lock(guard_);
-        come_ = true;
-        for (const auto &line : std::exchange(kept_, {})) line();
-    }
-
-private:
-    std::mutex guard_; // for the members below, and for printing
-    bool come_;
-    std::vector<std::function<void()>> kept_;
-};
 
 enum class ProgressFormat {
     terminal, // one line that is overwritten, if stderr is a terminal
@@ -70,10 +40,9 @@ std::string status_line(const std::string &tool_name, const FrameCount &frames, 
 // The beginning of an error line: "dof-gather: ", for Open Job Description "openjd_fail: dof-gather: ".
 std::string error_prefix(ProgressFormat format, const std::string &tool_name);
 
-// Prints to stderr when the frame's turn comes, because standard output may be the picture and farms read both. For a
-// farm, the percentages refer to all frames and never decrease.
-std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames,
-                                      const std::shared_ptr<InTurn> &turn, Progress::Watch watch = {});
+// Prints to stderr, because standard output may be the picture and farms read both. For a farm, the percentages refer
+// to all frames and never decrease.
+std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames);
 
 // Prepares text for a terminal: messages, and text from other programs or files.
 

@@ -22,8 +22,7 @@ namespace sparselens {
 
 void ToolContext::say(const std::string &line) const {
     if (!verbose) return;
-    turn->say(
-        [text = fmt::format("{}: {}\n", tool_name, with_options(line))] { fmt::print(stderr, "{}", text); });
+    fmt::print(stderr, "{}: {}\n", tool_name, with_options(line));
 }
 
 namespace {
@@ -44,9 +43,7 @@ void write_plain(const std::string &path, const Image &image) {
     write_flat_exr(path, image, {});
 }
 
-void warn(const ToolContext &tool, const std::string &text) {
-    tool.turn->say([line = warning(tool, text)] { fmt::print(stderr, "{}", line); });
-}
+void warn(const ToolContext &tool, const std::string &text) { fmt::print(stderr, "{}", warning(tool, text)); }
 
 Tell ToolContext::tell() const {
     return [this](const Notice &notice) {
@@ -59,11 +56,10 @@ Tell ToolContext::tell() const {
 }
 
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text) {
-    const std::string later =
-        tool.verbose ? fmt::format("{}: {}\n", tool.tool_name, with_options(one_line(text))) : "";
-    tool.turn->say([warned = tool.warned, kind, first = warning(tool, text), later] {
-        fmt::print(stderr, "{}", warned->insert(kind).second ? first : later);
-    });
+    if (tool.warned->insert(kind).second)
+        warn(tool, text);
+    else
+        tool.say(one_line(text));
 }
 
 int run_tool(CLI::App &app, int argc, char **argv, const Work &work) {
@@ -82,12 +78,11 @@ int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &w
     tool.max_memory = options.max_memory;
     tool.command_line = command_line(tool.tool_name, words);
     const Process process(options, tool);
-    tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {}, tool.turn);
+    tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
     return exit_code_of(prefix, [&] {
         const NamedFiles files = named_files(app);
         refuse_overwriting({&files, 1});
         work(tool);
-        if (*tool.last_step) (*tool.last_step)();
     });
 }
 

@@ -41,20 +41,12 @@ struct ToolContext {
     // The kinds of warning that warn_once() has printed in this range of frames; never null.
     std::shared_ptr<std::set<std::string>> warned = std::make_shared<std::set<std::string>>();
 
-    // Never null. A job may store its last step here, which writes the result and owns all that it needs. In a range of
-    // frames it runs while the next frame is worked on, after all earlier frames have ended. It counts as part of the
-    // job.
-    std::unique_ptr<std::function<void()>> last_step = std::make_unique<std::function<void()>>();
-
     // With --verbose, prints the line to stderr after the name of the tool.
     void say(const std::string &line) const;
     std::string tool_name;
 
     // Returns a function that prints what the chain reports; notes only with --verbose.
     Tell tell() const;
-
-    // Delays all messages to the turn of their frame; never null.
-    std::shared_ptr<InTurn> turn = std::make_shared<InTurn>(true);
 };
 
 using Work = std::function<void(const ToolContext &)>;
@@ -62,9 +54,7 @@ using Work = std::function<void(const ToolContext &)>;
 // The job of one frame.
 struct Job {
     Work work;
-    // Names what the work keeps for the next frame; "" means nothing. If the next frame names the same, it begins after
-    // this one. Frames with different names may be worked on at the same time, on any thread, and write files only in
-    // their last steps. Without this function, all frames run one after the other.
+    // Names what the work keeps for the next frame, if that names the same; "" means nothing.
     std::function<std::string()> keeps = {};
     // Whether it makes one output of the moments of a shutter, whose files one name with %s names. Other tools run once
     // for each moment (commands/each_picture.h).
@@ -93,7 +83,7 @@ void write_plain(const std::string &path, const Image &image);
 void warn(const ToolContext &tool, const std::string &text);
 
 // Prints the warning for the first frame of a range that has one of this kind (a word); for later frames only with
-// --verbose. Not for last steps, which run beside the next frame.
+// --verbose.
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text);
 
 struct Example {

@@ -38,9 +38,6 @@ Image in_type(Image image,
 // `what_works` begins the help text: "What warps".
 void add_device_option(CLI::App &app, std::string &device, const std::string &what_works);
 
-// For Job::keeps: a device, unless the word means none.
-inline std::string kept_device(const std::string &word) { return word == "cpu" ? "" : "a device"; }
-
 // Options made from the table of parameters (chain/parameters.h).
 
 // Adds the option of a parameter, whose text goes to `put`, with what it excludes and needs among the options that are

@@ -85,7 +85,7 @@ struct BrightEdge {
             mappings.emplace_back(view.position, focal_px, view.image.windows);
         }
     }
-    // Of the card's last pixel.
+    // The light in the last pixel of the card.
     std::optional<Mixture> light(bool by_both) const {
         const OtherViews others(samples, mappings, 0, scale);
         return light_between_strands(SamplesAround(samples[0], scale), 19, 4, 0.5, 1,
