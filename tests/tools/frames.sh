@@ -32,60 +32,31 @@ wait_for() {
     done
 }
 
-# A frame is written while the next one is worked on: the reader of the first waits until the second is gathered.
-if [ "$(nproc)" -gt 1 ]; then
-    mkfifo aside.0001.exr
-    "$gather" ldi.exr -o aside.####.exr --frames 1-3 --focus-distance 1:5,3:2 -v 2>tool.err &
-    process=$!
-    second_begun() { [ "$(grep -c 'device: ' tool.err)" -ge 2 ]; }
-    wait_for $process second_begun
-    cat aside.0001.exr >first.exr
-    wait $process || fail "written aside: $(cat tool.err)"
-    exits 0 "$gather" ldi.exr -o one.exr --focus-distance 5
-    same_pixels first.exr one.exr "a frame written aside"
-    exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2
-    same aside.0003.exr one.exr "the last frame after one written aside"
-
-    # Frames of separate files are worked on at the same time: the writer of the third input waits until it is read, and
-    # only then writes the second. Messages still come in order, and the pictures equal those of one thread.
-    for n in 1 2 3 4; do
-        exits 0 "$bin/ldi-cluster" ldi.exr -o own.000$n.exr --tolerance $((n * n))
-        [ $n -eq 2 ] || [ $n -eq 3 ] || ln own.000$n.exr in.000$n.exr
-    done
-    mkfifo in.0002.exr in.0003.exr
-    "$gather" in.####.exr -o beside.####.exr --frames 1-4 -v 2>tool.err &
-    process=$!
-    timeout 300 cat own.0003.exr >in.0003.exr || fail "frames are not worked on beside each other: $(cat tool.err)"
-    cat own.0002.exr >in.0002.exr
-    wait $process || fail "frames beside each other: $(cat tool.err)"
-    exits 0 "$gather" own.####.exr -o single.####.exr --frames 1-4 -v --threads 1
-    for n in 1 2 3 4; do same beside.000$n.exr single.000$n.exr "frame $n, worked on beside others"; done
-    differ beside.0001.exr beside.0004.exr "frames of files of their own"
-    sed 's/own\./in./; s/single/beside/; s/threads: 1/threads: '"$(nproc)"'/' stderr | diff tool.err - || fail "what frames beside each other say"
-else
-    echo "skipped: frames written aside: there is one core"
-fi
-# The same for warps. A frame that fails ends the range, or is left out, and nothing of later frames is written.
+# Frames of separate files are those of separate runs.
+for n in 1 2 3; do exits 0 "$bin/ldi-cluster" ldi.exr -o own.000$n.exr --tolerance $((n * n)); done
+exits 0 "$gather" own.####.exr -o range.####.exr --frames 1-3
+for n in 1 2 3; do
+    exits 0 "$gather" own.000$n.exr -o single.exr
+    same range.000$n.exr single.exr "frame $n of files of their own"
+done
+differ range.0001.exr range.0003.exr "frames of files of their own"
+# A frame that fails ends the range, or is left out, and nothing of later frames is written.
 for n in 1 2 3 4 5; do cp views/center.exr c.000$n.exr; done
 : >c.0003.exr
-for threads in 0 1; do
-    fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5 --threads $threads
-    [ "$(count 'w.????.exr')" -eq 2 ] || fail "frames after one that failed: $(ls)"
-    fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5 --threads $threads --skip-bad-frames
-    [ "$(count 'w.????.exr')" -eq 4 ] || fail "--skip-bad-frames of ldi-warp: $(ls)"
-    same w.0001.exr ldi.exr "ldi-warp of frames"
-    same w.0005.exr ldi.exr "ldi-warp of frames"
-    rm w.????.exr
-done
+fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5
+[ "$(count 'w.????.exr')" -eq 2 ] || fail "frames after one that failed: $(ls)"
+fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5 --skip-bad-frames
+[ "$(count 'w.????.exr')" -eq 4 ] || fail "--skip-bad-frames of ldi-warp: $(ls)"
+same w.0001.exr ldi.exr "ldi-warp of frames"
+same w.0005.exr ldi.exr "ldi-warp of frames"
+rm w.????.exr
 # A frame that cannot be written ends the range before the next one is written; --skip-bad-frames continues.
 mkdir unwritten.0002.exr
-for threads in 0 1; do
-    fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --threads $threads
-    [ "$(find . -name 'unwritten.????.exr' -type f -printf '%f ')" = 'unwritten.0001.exr ' ] || fail "frames after one that was not written: $(ls)"
-    fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --skip-bad-frames --threads $threads
-    [ "$(count 'unwritten.????.exr')" -eq 4 ] && [ -f unwritten.0004.exr ] || fail "--skip-bad-frames: $(ls)"
-    rm unwritten.000[134].exr
-done
+fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4
+[ "$(find . -name 'unwritten.????.exr' -type f -printf '%f ')" = 'unwritten.0001.exr ' ] || fail "frames after one that was not written: $(ls)"
+fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --skip-bad-frames
+[ "$(count 'unwritten.????.exr')" -eq 4 ] && [ -f unwritten.0004.exr ] || fail "--skip-bad-frames: $(ls)"
+rm unwritten.000[134].exr
 rm -r unwritten.*.exr
 
 # --skip-existing completes an interrupted range, and touches nothing else.
