@@ -131,8 +131,8 @@ struct Walk {
 // Measures an edge: pixels 0 and 1 show the surface; then the edge follows, and then nothing.
 void look_at(const Walk &walk, std::vector<double> &found) {
     if (!walk.reaches(3) || walk.coverage(0) < 1 - nothing || walk.coverage(1) < 1 - nothing) return;
-    const double surface = (walk.light(0) + walk.light(1)) / 2;
-    if (!(surface > 0) || !(std::abs(walk.light(0) - walk.light(1)) < even_surface * surface)) return;
+    const double surface = walk.light(1);
+    if (!(surface > 0) || !(std::abs(walk.light(0) - surface) < even_surface * surface)) return;
     std::size_t end = 2;
     while (walk.reaches(end) && walk.coverage(end) > nothing && walk.coverage(end) < walk.coverage(end - 1))
         ++end;
