@@ -19,8 +19,8 @@ public:
         std::uint64_t (*weigh)(const Value &) = [](const Value &) { return std::uint64_t{1}; })
         : most_(most), weigh_(weigh) {}
 
-    // Returns the value of the key; makes it by make(key) if it is not kept. Those unused for longest are dropped first,
-    // so that memory never holds one more. If make() throws, they stay dropped, and nothing is kept for the key.
+    // Returns the value of the key. If none is kept, drops the values that were used least recently, so that a new one
+    // fits, and makes it by make(key). If make() throws, nothing is kept for the key.
     template <typename Make>
     Value &get(Key key, const Make &make) {
         const auto found = std::ranges::find(entries_, key, &Entry::first);

@@ -85,6 +85,7 @@ LinearColours linear_colours(const Tell &tell, const ColourOptions &options, con
     return result;
 }
 
+// The space of pixels that went through to_linear(), or that have never been in a file.
 std::string space_of(const ColourConfig &config, const Imf::Header &header) {
     const auto stated = stated_space(config, header);
     return stated && stated->space ? *stated->space : config.scene_linear();

@@ -58,8 +58,8 @@ struct MatchTuning {
     struct GatherError {
         double coc_px, share;
     };
-    // ... and the variance by which the blur of a CoC c is wrong, times 1 + c^2, square pixels. Regions whose CoCs end
-    // at 1.3 to 1.7 pixels had radii that were 24 to 60 % too large; this makes 15 to 25 %, as a deviation.
+    // The variance of the blur of a CoC c is wrong by this, square pixels, divided by 1 + c^2. In regions with CoCs of at
+    // most 1.3 to 1.7 pixels, radii were 24 to 60 % too large; their stated deviation is 15 to 25 % by this.
     static constexpr double small_blur_error = 0.3;
     static constexpr GatherError first_frame_error{0.03, 0.015}, next_frame_error{0.1, 0.03};
 

@@ -7,8 +7,8 @@ import shlex
 
 import bpy
 
-# Options that are no fields of the panel with the same name, and where their
-# values are in Blender. Those of the settings and looks have their names.
+# The names that Blender shows for the values of these options. The panel's own
+# settings and looks are not listed: field_of() finds them by their properties.
 ELSEWHERE = {
     "blades": "Blades", "blade-rotation": "Rotation", "squeeze": "Ratio",
     "fstop": "F-Stop", "focus-distance": "Focus Distance",

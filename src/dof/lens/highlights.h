@@ -98,8 +98,8 @@ struct Highlights {
 // is made up; if it has none of these, it counts all its samples. A made-up sample must stand out of all samples of its
 // windows, too, so that at most a fifth of these are highlights.
 // From six times the level on, a sample spreads all light that stands out; below, less and less, so that nothing pops
-// where a lamp is hardly one. Nor does a disc that is too wide to be seen (lamp_least_variance) spread anything. Only the
-// channels in `colour_channels` are light.
+// where a lamp is hardly one. A sample whose disc would be too wide and too faint to be seen (lamp_least_variance) is no
+// highlight. Only the channels in `colour_channels` are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen = {});

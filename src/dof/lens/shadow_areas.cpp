@@ -22,11 +22,7 @@ NearSteps steps_of(std::span<const JoinedFootprint> footprints) {
     return {std::move(bounds), in_step};
 }
 
-} // namespace
-
-namespace {
-
-// Returns the depths that footprints joined of several depths extend over, as ranges that do not overlap, ascending.
+// Returns the ranges of depth of the footprints that join several depths: ascending, without overlaps.
 std::vector<BlockFootprints::DepthRange> depths_of(std::span<const JoinedFootprint> joined) {
     std::vector<BlockFootprints::DepthRange> all, apart;
     for (const JoinedFootprint &one : joined)

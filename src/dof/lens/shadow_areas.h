@@ -131,9 +131,8 @@ public:
     };
     struct Block {
         std::vector<JoinedFootprint> alone, joined; // footprints of its samples
-        std::vector<DepthRange>
-            joined_over; // what joined footprints of several depths extend over, ascending
-        NearSteps near;  // bounds of the joined footprints
+        std::vector<DepthRange> joined_over;        // the ranges of depth of joined footprints, ascending
+        NearSteps near;                             // bounds of the joined footprints
 
         // Returns the joined footprints; the single ones if a joined one could lie on both sides of a lamp whose
         // perceptive depth is between these.
