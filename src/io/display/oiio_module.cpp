@@ -42,10 +42,13 @@ const char *read(const char *path, OiioSize &size, float *values) {
     const OIIO::ImageSpec &spec = file->spec();
     if (!values) size = {spec.width, spec.height, spec.get_float_attribute("PixelAspectRatio", 1)};
     if (spec.width != size.width || spec.height != size.height) return "it has changed";
-    for (int k = 0, from = 0; values && k<3; ++k, from += spec.nchannels> 2) // or grey
-        if (!file->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT,
-                              values + std::ptrdiff_t(k) * size.width * size.height))
+    const bool is_grey = spec.nchannels < 3;
+    for (int k = 0; values && k < 3; ++k) {
+        const int from = is_grey ? 0 : k;
+        float *plane = values + std::ptrdiff_t(k) * size.width * size.height;
+        if (!file->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT, plane))
             return (why = file->geterror()).c_str();
+    }
     return nullptr;
 }
 
