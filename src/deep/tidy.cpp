@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace sparselens {
 
@@ -172,54 +171,6 @@ Ldi tidy(Ldi ldi) {
         return with_each_coverage(ldi, [&](std::size_t coverage) { return tidied(ldi, coverage); });
     rebuild_pixels(ldi, untidy, [&](std::size_t pixel, Ldi &out) { tidy_pixel(ldi, alpha, pixel, out); });
     return ldi;
-}
-
-namespace {
-
-using Extent = std::pair<float, float>; // z, z_back: ordered as samples are
-
-bool has_nan(const std::vector<Extent> &extents) {
-    return std::ranges::any_of(extents,
-                               [](const Extent &e) { return std::isnan(e.first) || std::isnan(e.second); });
-}
-
-bool is_sorted_strictly(const std::vector<Extent> &extents) {
-    for (std::size_t i = 1; i < extents.size(); ++i)
-        if (!(extents[i - 1] < extents[i])) return false;
-    return true;
-}
-
-// In sorted extents, neighbours overlap first, so only they are compared.
-bool are_apart(const std::vector<Extent> &extents) {
-    for (std::size_t i = 1; i < extents.size(); ++i) {
-        const auto &[z, back] = extents[i - 1];
-        const auto &[next_z, next_back] = extents[i];
-        const bool before = z < next_z && back <= next_z;
-        const bool point_at_the_front_of_a_volume = z == next_z && back <= z && next_back > next_z;
-        if (!before && !point_at_the_front_of_a_volume) return false;
-    }
-    return true;
-}
-
-} // namespace
-
-Order order_of(const Ldi &ldi) {
-    std::atomic<bool> sorted = true, apart = true;
-    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        std::vector<Extent> extents;
-        for (std::size_t pixel = begin; pixel < end; ++pixel) {
-            extents.clear();
-            for (const std::uint64_t i : ldi.pixel(pixel)) extents.emplace_back(ldi.z[i], back_at(ldi, i));
-            if (is_sorted_strictly(extents)) {
-                if (!are_apart(extents)) apart = false;
-                continue;
-            }
-            sorted = false;
-            if (!has_nan(extents)) std::ranges::sort(extents);
-            if (has_nan(extents) || !are_apart(extents)) apart = false;
-        }
-    });
-    return {sorted, apart};
 }
 
 } // namespace sparselens

@@ -2,6 +2,7 @@
 #include "deep/flatten.h"
 #include "deep/tidy.h"
 #include "support/ldi_samples.h"
+#include "support/order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "deep/tidy.h"
 #include "support/ldi_samples.h"
+#include "support/order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "base/subpixels.h"
 #include "deep/flatten.h"
 #include "deep/proxy.h"
-#include "deep/tidy.h"
 #include "support/lens_ldi.h"
+#include "support/order.h"
 
 #include <gtest/gtest.h>
 

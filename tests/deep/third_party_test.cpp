@@ -3,6 +3,7 @@
 #include "deep/flatten.h"
 #include "deep/tidy.h"
 #include "io/exr/exr_deep.h"
+#include "support/order.h"
 #include "support/scratch_folder.h"
 #include "support/shared_files.h"
 

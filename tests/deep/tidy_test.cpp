@@ -3,6 +3,7 @@
 #include "deep/tidy.h"
 #include "support/composite.h"
 #include "support/ldi_samples.h"
+#include "support/order.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "support/deep_scenes.h"
 #include "support/ldi_samples.h"
 #include "support/lens_ldi.h"
+#include "support/order.h"
 #include "view/resolve_lens.h"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const MemoryFile file(fuzz::text_of(data, size));
     fuzz::may_fail([&] {
         LdiFile in = read_ldi(file.path());
-        order_of(in.ldi);
         sanitize(in.ldi, "fuzz");
         const Ldi ldi = tidy(std::move(in.ldi));
         Progress silent;

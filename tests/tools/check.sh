@@ -75,13 +75,19 @@ answers_help() {
     fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
-# usd_python: installs USD's library (usd-core of PyPI) for the tools, whose Python is then $SPARSELENS_USD_PYTHON; or skips.
-usd_python() {
+# pypi NAME: installs a package of PyPI for the Python that is then $pypi_python; or skips.
+pypi() {
     python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
-    python3 -m venv usd_python
-    usd_python/bin/pip -q --disable-pip-version-check install --retries 1 usd-core >installed 2>&1 ||
-        skip "usd-core: PyPI cannot be reached, or has no wheel for this Python"
-    export SPARSELENS_USD_PYTHON=$PWD/usd_python/bin/python
+    python3 -m venv "pypi-$1"
+    "pypi-$1"/bin/pip -q --disable-pip-version-check install --retries 1 "$1" >installed 2>&1 ||
+        skip "$1: PyPI cannot be reached, or has no wheel for this Python"
+    pypi_python=$PWD/pypi-$1/bin/python
+}
+
+# usd_python: the Python with USD's library, for the tools, too.
+usd_python() {
+    pypi usd-core
+    export SPARSELENS_USD_PYTHON=$pypi_python
 }
 
 # The options of the numbers among the looks of a lens, but for the blades, as the table of looks has them.

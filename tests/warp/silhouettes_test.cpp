@@ -1,7 +1,7 @@
 #include "base/light.h"
 #include "deep/flatten.h"
-#include "deep/tidy.h"
 #include "support/ldi_samples.h"
+#include "support/order.h"
 #include "support/views.h"
 #include "warp/silhouettes.h"
 

@@ -1,7 +1,7 @@
 // The samples of a warp: from which views they come, and where they are.
 #include "deep/flatten.h"
-#include "deep/tidy.h"
 #include "deep/view_samples.h"
+#include "support/order.h"
 #include "warp/coverage.h"
 #include "warp/reprojected_views.h"
 #include "warp/warp_fixture.h"

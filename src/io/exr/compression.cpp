@@ -33,6 +33,10 @@ constexpr std::array methods {
         NamedCompression{"htj2k256", Imf::HTJ2K256_COMPRESSION, false, true},
         NamedCompression{"htj2k32", Imf::HTJ2K32_COMPRESSION, false, true},
 #endif
+#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR >= 5
+        NamedCompression{"lj2k", Imf::LJ2K_COMPRESSION, false, false},
+        NamedCompression{"zstd", Imf::ZSTD_COMPRESSION, true, true},
+#endif
 };
 
 const NamedCompression *method_of(Imf::Compression value) {
@@ -48,8 +52,8 @@ std::string names_of(const Chosen &chosen, const std::string &separator = ", ") 
     return fmt::format("{}", fmt::join(names, separator));
 }
 
-// DWA changes the channels that are named as colours are (OpenEXR, ImfDwaCompressor.h, its rules for channels), PXR24
-// all floats of 32 bits, B44 all halves.
+// DWA changes the channels that are named as colours are (OpenEXR, ImfDwaCompressor.h, its rules for channels), LJ2K
+// at most these, PXR24 all floats of 32 bits, B44 all halves.
 bool changes(const NamedCompression &method, const Channel &channel) {
     static constexpr std::array colours{"r", "red", "g", "grn", "green", "b", "blu", "blue", "y", "ry", "by"};
     if (method.value == Imf::B44_COMPRESSION || method.value == Imf::B44A_COMPRESSION)

@@ -15,11 +15,11 @@ namespace sparselens {
 struct NamedCompression {
     const char *name; // as OpenEXR and OpenImageIO spell it
     Imf::Compression value;
-    bool deep;  // allowed for deep files (OpenEXR 3.1 to 3.4)
+    bool deep;  // allowed for deep files (OpenEXR 3.1 to 3.5)
     bool exact; // keeps all bits of 32-bit floats
 };
 
-// All methods of the OpenEXR that this is compiled with; htj2k256 and htj2k32 exist from 3.4 on.
+// All methods of the OpenEXR that this is compiled with: htj2k256 and htj2k32 from 3.4 on, lj2k and zstd from 3.5 on.
 std::span<const NamedCompression> compressions();
 
 // The names that flat or deep files may have, separated by `separator`.

@@ -5,7 +5,6 @@
 #include "deep/channel_alpha.h"
 #include "deep/merge.h"
 #include "deep/sanitize.h"
-#include "deep/tidy.h"
 #include "io/exr/exr_channels.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_deep_part.h"
@@ -15,7 +14,6 @@
 #include "io/files/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
-#include <ImfDeepImageStateAttribute.h>
 #include <ImfDeepScanLineOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
@@ -264,12 +262,6 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
 
 namespace {
 
-Imf::DeepImageState state_of(const Ldi &ldi) {
-    const Order order = order_of(ldi);
-    if (order.sorted) return order.apart ? Imf::DIS_TIDY : Imf::DIS_SORTED;
-    return order.apart ? Imf::DIS_NON_OVERLAPPING : Imf::DIS_MESSY;
-}
-
 struct StoredChannel {
     std::string name;
     PixelType type;
@@ -341,7 +333,6 @@ std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header
         for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
         Imf::Header header = output_header(ldi.windows, channels, metadata);
         header.setType(Imf::DEEPSCANLINE);
-        Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
         header.compression() = output_compression(true, compression, output.to_pipe(), metadata, channels);
         std::size_t clamped = 0;

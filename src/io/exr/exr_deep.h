@@ -47,9 +47,9 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice = {});
 using ReduceFileRows = std::function<std::optional<Ldi>(const Imf::Header &header, Ldi rows)>;
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce);
 
-// Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of
-// `metadata` that does not describe its own pixels. Returns the number of values that became the largest half, as
-// write_flat_exr does.
+// Writes a scanline deep EXR file, compressed as compression.h says; without deepImageState, because OpenEXR's module
+// for Python opens no file that has it. Keeps all of `metadata` that does not describe its own pixels. Returns the
+// number of values that became the largest half, as write_flat_exr does.
 std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata,
                       std::optional<Imf::Compression> compression = {});
 

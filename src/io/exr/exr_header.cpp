@@ -170,6 +170,13 @@ constexpr std::array<FixedSize, 24> fixed_sizes{{{"box2f", 16},
                                                  {"v3f", 12},
                                                  {"v3i", 12}}};
 
+// The name of a method, and the OpenEXR that brought it.
+std::string newer_method(int code) {
+    static constexpr std::array names{"HTJ2K256, 3.4", "HTJ2K32, 3.4", "LJ2K, 3.5", "ZSTD, 3.5"};
+    const std::size_t index = std::size_t(code) - std::size_t(Imf::DWAB_COMPRESSION) - 1;
+    return index < names.size() ? names[index] : fmt::format("code {}", code);
+}
+
 class HeaderWalk {
 public:
     HeaderWalk(InputStream &in, const std::string &path) : in_(in), path_(path) {}
@@ -205,11 +212,9 @@ private:
         if (type == "stringvector" && !is_list(begin + bytes))
             fail(name, "does not have the size that it claims");
         if (const int code = type == "compression" ? byte() : 0; code >= int(Imf::NUM_COMPRESSION_METHODS))
-            throw Error(fmt::format(
-                "{}: its compression (code {}; HTJ2K is 10 and 11, from OpenEXR 3.4 on) is newer than "
-                "OpenEXR " OPENEXR_VERSION_STRING
-                ": convert it by a newer oiiotool: oiiotool IN --compression zip -o OUT.exr",
-                display_name(path_), code));
+            throw Error(fmt::format("{}: compressed by a newer OpenEXR than " OPENEXR_VERSION_STRING
+                                    " ({}): where that is, oiiotool IN --compression zips -o OUT.exr",
+                                    display_name(path_), newer_method(code)));
         in_.seekg(begin + bytes);
     }
 
