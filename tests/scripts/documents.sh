@@ -16,6 +16,10 @@ riddles=$(grep -rnE '(//|#|/\*|"""|<!--) ?(Of|Who|Those|Nor|But for) ' --include
     src tools lab tests share cmake CMakeLists.txt || true)
 [ -z "$riddles" ] || fail "a comment does not begin with its subject: $riddles"
 
+# Pictures do not say on which machine and by which command they were made.
+told=$(grep -laE 'oiiotool|ImageHistory|/(home|root|work|tmp)/' share/images/*.png || true)
+[ -z "$told" ] || fail "metadata names commands or folders: $told (oiiotool IN.png --nosoftwareattrib --eraseattrib '.*' -o OUT.png)"
+
 # measured PAGE DOCUMENT: the text between the marks of lab/measure.
 measured() { sed -n "/^<!-- measured: $1 /,/^<!-- end -->\$/{/^<!-- /d;p}" "$2"; }
 count=0
