@@ -72,6 +72,8 @@ inline float back_at(const Ldi &ldi, std::uint64_t index) {
     return ldi.z_back.empty() ? ldi.z[index] : ldi.z_back[index];
 }
 
+inline bool is_volume(const Ldi &ldi, std::uint64_t index) { return back_at(ldi, index) > ldi.z[index]; }
+
 // Calls visit(sample, left) for each sample, front to back; `left` is what the samples in front of it let through.
 // Returns what all samples let through.
 template <typename Samples, typename Visit>

@@ -58,7 +58,9 @@ bool sees_infinity(const Ldi &rows) {
 Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
     Extremes found;
     for (const auto *depths : {&rows.z, &rows.z_back}) // volumes are gathered in between (merge_layers.h)
-        for (const float z : *depths) found.add(lens, double(z));
+        for (const float z : *depths)
+            if (depths == &rows.z || std::isfinite(z))
+                found.add(lens, double(z)); // endless ones stay in front
     for (const float optical : rows.optical)
         found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));
     for (std::size_t i = 0; i < rows.solid.size(); ++i)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace sparselens {
@@ -120,6 +121,17 @@ public:
             return std::clamp(float(1 / inverse), ldi_.z[run.from], ldi_.z[run.to - 1]);
         });
     }
+    // A run of volumes alone ends where they do; another is a point, which ends at its depth.
+    std::vector<float> backs(const std::vector<float> &depths) const {
+        if (ldi_.z_back.empty()) return {};
+        std::vector<float> backs = for_runs(ldi_, runs_, [&](const Run &run) {
+            bool volume = true;
+            for (const std::uint64_t i : run) volume = volume && is_volume(ldi_, i);
+            return volume ? ldi_.z_back[run.to - 1] : 0;
+        });
+        std::ranges::transform(backs, depths, backs.begin(), [](float a, float b) { return std::max(a, b); });
+        return backs;
+    }
     std::vector<float> depths_of_images() const {
         if (ldi_.optical.empty()) return {};
         return for_runs(ldi_, runs_, [&](const Run &run) {
@@ -195,7 +207,8 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
     out.windows = ldi.windows;
     out.channels = ldi.channels;
     out.z = merging.depths();
-    used(ldi.z);
+    out.z_back = merging.backs(out.z);
+    used(ldi.z), used(ldi.z_back);
     out.optical = merging.depths_of_images();
     used(ldi.optical);
     out.solid = merging.solids();
@@ -244,14 +257,13 @@ double shown_depth(double alpha) {
 Ldi at_shown_depths(Ldi ldi) {
     constexpr std::size_t samples_at_once = std::size_t(1) << 16;
     const std::size_t alpha = ldi.alpha();
-    const std::vector<float> z_back = std::move(ldi.z_back);
-    ldi.z_back.clear();
-    parallel_ranges(z_back.size(), samples_at_once, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(ldi.z_back.size(), samples_at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const double extent = double(z_back[i]) - double(ldi.z[i]);
+            const double extent = double(ldi.z_back[i]) - double(ldi.z[i]);
             if (!(extent > 0) || !std::isfinite(extent)) continue;
             const auto farther = float(shown_depth(double(alpha_at(ldi, alpha, i))) * extent);
             ldi.z[i] += farther;
+            ldi.z_back[i] = std::numeric_limits<float>::infinity();
             if (!ldi.optical.empty()) ldi.optical[i] += farther;
         }
     });

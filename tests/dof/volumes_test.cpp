@@ -38,11 +38,25 @@ TEST(Volumes, PointsEndlessVolumesAndLdisWithoutAlphaStay) {
     const TestPixel pixel{{.z = 2, .alpha = 0.5f}, {.z = 3, .alpha = 0.5f, .z_back = endless}};
     Ldi ldi = ldi_of({pixel});
     EXPECT_EQ(at_shown_depths(ldi).z, ldi.z);
-    EXPECT_TRUE(at_shown_depths(ldi).z_back.empty());
+    EXPECT_EQ(at_shown_depths(ldi).z_back, ldi.z_back);
     ldi = ldi_of({{{.z = 2, .alpha = 1e-3f, .z_back = 4}}});
     EXPECT_NEAR(double(at_shown_depths(ldi).z[0]), 3, 1e-3);
     ldi.channels.back().name = "other";
     EXPECT_EQ(at_shown_depths(ldi).z, ldi.z);
+}
+
+TEST(Volumes, StayVolumesWhoseDepthsAreChosenWhenTheyAreMergedAgain) {
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    const Ldi ldi = ldi_of({{{.z = 2, .alpha = 0.1f, .z_back = 2.01f},
+                             {.z = 2.01f, .alpha = 0.1f, .z_back = 2.02f},
+                             {.z = 4, .alpha = 0.1f, .z_back = 4.01f},
+                             {.z = 4.01f}}});
+    const Ldi once = merge_layers(ldi, 4, 0.25);
+    EXPECT_EQ(once.z_back, (std::vector<float>{endless, once.z[1]})); // the surface makes a point of its run
+    EXPECT_NEAR(double(once.z[0]), 2.01, 1e-3);
+    const Ldi again = merge_layers(once, 4, 0.25);
+    EXPECT_EQ(again.z, once.z);
+    EXPECT_EQ(again.z_back, once.z_back);
 }
 
 TEST(Volumes, ImagesInMirrorsMoveAsFar) {

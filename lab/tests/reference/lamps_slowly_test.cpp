@@ -96,9 +96,7 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
                     {},   {}};
     const BlockedSamples &samples = lit.samples;
     lit.colours = make_colours(ldi, samples);
-    const LightChannels channels = light_channels(ldi);
-    const Highlights &highlights = lit.highlights =
-        take_highlights(samples, channels.brightness, channels.all, lit.colours);
+    const Highlights &highlights = lit.highlights = take_highlights(ldi, samples, lit.colours);
     ASSERT_EQ(highlights.sample.size(), 3u);
     std::vector<SlowLamp> lamps;
     for (std::size_t h = 0; h < 3; ++h)

@@ -69,9 +69,8 @@ GatherScene placed_for(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i 
 }
 
 void take_highlights(GatherScene &scene, const LensGatherOptions &options) {
-    const LightChannels light = light_channels(*scene.ldi);
-    scene.highlights = take_highlights(scene.samples, light.brightness, light.all, scene.colours,
-                                       seen_of(options, scene.held_out.corner));
+    scene.highlights =
+        take_highlights(*scene.ldi, scene.samples, scene.colours, seen_of(options, scene.held_out.corner));
 }
 
 // Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them, and tells

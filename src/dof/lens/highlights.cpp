@@ -27,7 +27,7 @@ struct Found {
 // edge of a window.
 class HighlightFinder {
 public:
-    HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
+    HighlightFinder(const Ldi &ldi, const BlockedSamples &samples, std::span<const std::size_t> channels,
                     const SampleColours &colours, const std::optional<Imath::Box2i> &seen);
     std::vector<Found> find() const;
 
@@ -37,7 +37,7 @@ private:
         for (const std::size_t k : channels_) most = std::max(most, colours_.at(k, sample));
         return most;
     }
-    // visit(sample) for the samples of the cells in a box.
+    // visit(sample) for the samples of the cells in a box, without volumes.
     template <typename Visit>
     void for_each_sample(const Imath::Box2i &cells, const Visit &visit) const;
     // A transparent pixel beyond the frame is as well known as the frame's pixel beside it.
@@ -54,6 +54,7 @@ private:
     float level_of(const Imath::Box2i &cells, Of of, Besides &besides) const;
     std::vector<Found> find_in(const Imath::V2i &at) const;
 
+    const Ldi &ldi_;
     const BlockedSamples &samples_;
     std::span<const std::size_t> channels_;
     const SampleColours &colours_;
@@ -64,13 +65,14 @@ private:
     BrightShare as_bright_;
 };
 
-HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
-                                 const SampleColours &colours, const std::optional<Imath::Box2i> &seen)
-    : samples_(samples), channels_(channels), colours_(colours), seen_(seen),
+HighlightFinder::HighlightFinder(const Ldi &ldi, const BlockedSamples &samples,
+                                 std::span<const std::size_t> channels, const SampleColours &colours,
+                                 const std::optional<Imath::Box2i> &seen)
+    : ldi_(ldi), samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
       windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()),
       covered_levels_(windows_.size()), made_up_levels_(windows_.size()),
-      as_bright_(samples, [this](std::uint32_t i) { return brightness_of(i); }) {
+      as_bright_(ldi, samples, [this](std::uint32_t i) { return brightness_of(i); }) {
     parallel_for(windows_.size(), [&](std::size_t i) {
         const Imath::V2i last = windows_.pixel(i);
         const Imath::Box2i window{last - Imath::V2i(1), last};
@@ -88,7 +90,8 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
     for (int row = std::max(first.y, 0); row < std::min(end.y, samples_.rows); ++row)
         for (int column = std::max(first.x, 0); column < std::min(end.x, samples_.columns); ++column) {
             const SampleBlock &block = samples_.blocks[std::size_t(row * samples_.columns + column)];
-            for (std::uint32_t i = block.begin; i < block.end; ++i) visit(i);
+            for (std::uint32_t i = block.begin; i < block.end; ++i)
+                if (counts_as(ldi_, samples_, i) > 0) visit(i);
         }
 }
 
@@ -100,7 +103,7 @@ float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besid
         besides.background = besides.background || background;
         besides.unseen = besides.unseen || !seen;
         if (of == Of::seen_and_covered && background) return;
-        (of == Of::all || seen ? levels : all).push_back({brightness_of(i), counts_as(samples_, i)});
+        (of == Of::all || seen ? levels : all).push_back({brightness_of(i), counts_as(ldi_, samples_, i)});
     });
     if (levels.empty()) levels = std::move(all);
     return surroundings_of(std::span(levels), LampTuning::one_in);
@@ -166,14 +169,14 @@ int pieces_along(const LampMotion &motion, float coc) {
 
 } // namespace
 
-Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
-                           std::span<const std::size_t> colour_channels, SampleColours &colours,
+Highlights take_highlights(const Ldi &ldi, const BlockedSamples &samples, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen) {
-    const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
+    const LightChannels light = light_channels(ldi);
+    const std::vector<Found> all = HighlightFinder(ldi, samples, light.brightness, colours, seen).find();
     Highlights highlights;
     highlights.light = no_light(colours.groups, all.size());
     for (const Found &f : all) {
-        for (const std::size_t k : colour_channels) {
+        for (const std::size_t k : light.all) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);
             colours.at(k, f.sample) *= 1 - f.share;
         }
@@ -297,7 +300,8 @@ int BrightShare::octave_of(float brightness) {
     return brightness > 0 ? std::clamp(std::ilogb(brightness) + octaves / 2, 0, octaves - 1) : 0;
 }
 
-BrightShare::BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t)> &brightness)
+BrightShare::BrightShare(const Ldi &ldi, const BlockedSamples &samples,
+                         const std::function<float(std::uint32_t)> &brightness)
     : samples_(samples), corners_(pieces_of(samples.columns, cell) + 1, pieces_of(samples.rows, cell) + 1),
       below_(octaves * corners_.size()) {
     const auto at = [&](int octave, int x, int y) -> double & {
@@ -309,7 +313,7 @@ BrightShare::BrightShare(const BlockedSamples &samples, const std::function<floa
         for (std::size_t b = first; b < last; ++b)
             for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i)
                 at(octave_of(brightness(i)), int(b % columns) / cell + 1, int(row) + 1) +=
-                    double(counts_as(samples, i));
+                    double(counts_as(ldi, samples, i));
     });
     for (int octave = octaves - 2; octave >= 0; --octave)
         for (std::size_t i = 0; i < corners_.size(); ++i)

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "base/grid.h"
+#include "deep/build.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/tuning.h"
 #include "shutter/lamp_paths.h"
@@ -91,17 +92,16 @@ struct Highlights {
 };
 
 // Finds the highlights of a picture, and takes the light that they spread out of `colours`. A sample is a highlight if
-// the brightest of its `brightness` channels is more than four times a level. Four fifths of the samples around it, which
-// count by what they cover, stay below this level. So at most a fifth are highlights, which bounds the cost. The level is
+// the brightest of its channels (light_channels()) is more than four times a level. Four fifths of the samples around it,
+// which count by what they cover, stay below this level. Volumes are neither highlights nor around anything. So at most a fifth are highlights, which bounds the cost. The level is
 // that of the darkest of four windows of 64 x 64 pixels that overlap at the sample. A window counts the samples in `seen`
 // (pixels relative to the data window's corner), and pixels beyond that let light through, because what else lies beyond
 // is made up; if it has none of these, it counts all its samples. A made-up sample must stand out of all samples of its
 // windows, too, so that at most a fifth of these are highlights.
 // From six times the level on, a sample spreads all light that stands out; below, less and less, so that nothing pops
 // where a lamp is hardly one. A sample whose disc would be too wide and too faint to be seen (lamp_least_variance) is no
-// highlight. Only the channels in `colour_channels` are light.
-Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
-                           std::span<const std::size_t> colour_channels, SampleColours &colours,
+// highlight.
+Highlights take_highlights(const Ldi &ldi, const BlockedSamples &samples, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen = {});
 
 // The highlights as parts of lamps. `corner`: of the data window, EXR coordinates.
@@ -119,8 +119,10 @@ void spread_along(const LampPaths &paths, const BlockedSamples &samples, const I
 // of at most sqrt((1 / share - 1) / n).
 
 // How much a sample counts among those around it: by what it covers, so that many thin layers do not outvote the
-// surface behind them. Light without coverage counts wholly.
-inline float counts_as(const BlockedSamples &samples, std::uint32_t sample) {
+// surface behind them. Light without coverage counts wholly, and a volume not at all.
+inline float counts_as(const Ldi &ldi, const BlockedSamples &samples, std::uint32_t sample) {
+    const std::uint32_t source = samples.source[sample];
+    if (source != BlockedSamples::background && is_volume(ldi, source)) return 0;
     return samples.alpha[sample] > 0 ? samples.alpha[sample] : 1;
 }
 
@@ -128,7 +130,8 @@ class BrightShare {
 public:
     static constexpr int cell = 4; // blocks wide and high, like the cells of their search
 
-    BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t sample)> &brightness);
+    BrightShare(const Ldi &ldi, const BlockedSamples &samples,
+                const std::function<float(std::uint32_t sample)> &brightness);
 
     // Returns the share, [0, 1], of the samples within a cell's width of a sample, across and down, that are half as
     // bright or brighter. It changes continuously with brightness and position: samples from a quarter of the

@@ -21,7 +21,7 @@ struct Block : BlockedLdi {
     std::vector<Footprint> of_samples;
     std::vector<JoinedFootprint> of_surfaces;
 
-    explicit Block(const Ldi &ldi) : BlockedLdi(ldi, lens) {
+    explicit Block(const Ldi &from) : BlockedLdi(from, lens) {
         const SampleRun all{samples.blocks[0].begin, samples.blocks[0].end};
         const SamplesInPicture seen{samples.x, samples.y, samples.coc, samples.upper, samples.source};
         of_samples = footprints_of(ldi, seen, {{0, 0}, {size - 1, size - 1}}, all, std::span(&all, 1));

@@ -6,10 +6,12 @@
 namespace sparselens {
 
 struct BlockedLdi {
+    Ldi ldi;
     BlockedSamples samples;
     SampleColours colours; // in the order of the LDI's channels
 
-    BlockedLdi(const Ldi &ldi, const ThinLens &lens) : samples(make_blocks(ldi, lens, ldi.windows.data)) {
+    BlockedLdi(const Ldi &from, const ThinLens &lens)
+        : ldi(from), samples(make_blocks(ldi, lens, ldi.windows.data)) {
         const std::size_t channels = ldi.channels.size();
         colours = {(channels + 3) / 4, samples.count(), {}};
         colours.values.resize(colours.groups * colours.count * 4, 0.0f);

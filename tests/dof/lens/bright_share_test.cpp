@@ -36,7 +36,7 @@ TEST(BrightShare, IsTheCountOfWhatIsHalfAsBright) {
         const Ldi ldi = half_bright(-64, columns, 3);
         const BlockedLdi blocked(ldi, lens);
         const auto brightness = [&](std::uint32_t i) { return blocked.colours.at(0, i); };
-        const BrightShare share(blocked.samples, brightness);
+        const BrightShare share(ldi, blocked.samples, brightness);
         const double expected = std::clamp((columns - 96) / 64.0, 0.0, 1.0);
         const std::uint32_t i = sample_at(blocked.samples, 128, 128);
         for (const float as : {0.1f, 2.0f, 3.9f}) EXPECT_NEAR(share.around(i, as), expected, 0.5 / 64 + 1e-6);
@@ -48,7 +48,7 @@ TEST(BrightShare, IsTheCountOfWhatIsHalfAsBright) {
 TEST(BrightShare, ChangesContinuouslyWithThePlaceAndTheBrightness) {
     const Ldi ldi = half_bright(20, 140, 3);
     const BlockedLdi blocked(ldi, lens);
-    const BrightShare share(blocked.samples, [&](std::uint32_t i) { return blocked.colours.at(0, i); });
+    const BrightShare share(ldi, blocked.samples, [&](std::uint32_t i) { return blocked.colours.at(0, i); });
     for (int x = 60; x < 200; ++x) {
         const double here = share.around(sample_at(blocked.samples, x, 128), 3),
                      beside = share.around(sample_at(blocked.samples, x + 1, 128), 3);
@@ -68,8 +68,7 @@ TEST(TakeHighlights, TakesNoBrightSurfaceForALamp) {
         for (const int x : {60, 200})
             for (std::size_t k = 0; k < 3 && lamp > 0; ++k) ldi.values[k][std::size_t(100 * size + x)] = lamp;
         BlockedLdi blocked(ldi, lens);
-        const std::array<std::size_t, 3> channels{0, 1, 2};
-        const Highlights found = take_highlights(blocked.samples, channels, channels, blocked.colours);
+        const Highlights found = take_highlights(ldi, blocked.samples, blocked.colours);
         std::vector<float> x;
         for (const std::uint32_t i : found.sample) x.push_back(blocked.samples.x[i]);
         std::ranges::sort(x);

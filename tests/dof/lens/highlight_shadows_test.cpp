@@ -57,8 +57,8 @@ struct LampBehindBoards : BlockedLdi {
     }
     static bool is_lamp(int x, int y) { return x >= 24 && x < 32 && y >= 32 && y < 40; }
 
-    explicit LampBehindBoards(const Ldi &ldi)
-        : BlockedLdi(ldi, lens), solids(place_solids(ldi, lens, samples)),
+    explicit LampBehindBoards(const Ldi &from)
+        : BlockedLdi(from, lens), solids(place_solids(ldi, lens, samples)),
           footprints(ldi, samples, Links(ldi, lens)), solid_footprints(ldi, solids),
           blocks(samples.blocks.size()) {
         std::iota(blocks.begin(), blocks.end(), 0u);

@@ -24,8 +24,7 @@ constexpr std::size_t red_channel = 0, alpha = 3;
 struct Blocked : BlockedLdi {
     using BlockedLdi::BlockedLdi;
     Highlights take(const std::optional<Imath::Box2i> &seen = {}) {
-        const std::size_t brightness[] = {0, 1, 2};
-        return take_highlights(samples, brightness, brightness, colours, seen);
+        return take_highlights(ldi, samples, colours, seen);
     }
 };
 
@@ -97,6 +96,29 @@ TEST(TakeHighlights, ThinLayersDoNotOutvoteTheSurfaceBehindThem) {
         ASSERT_EQ(highlights.sample.size(), 1u) << layers;
         EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 11.5f);
     }
+}
+
+// Bright and noisy mist in front of a lamp: the lamp alone is one, whatever the mist does to what is around it.
+TEST(TakeHighlights, VolumesAreNeitherLampsNorAroundThem) {
+    const auto behind_mist = [](float thickness, float brightness) {
+        return make_ldi(windows_of_size(64, 64), rgba_channels(), [&](int x, int y) {
+            const float noise = random_unit(x, y, 2) < 0.05 ? 40 * brightness : brightness;
+            const double z = depth_of(wide, -9);
+            Sample mist{z, {noise, noise, noise, 0.2f}};
+            mist.z_back = float(z) + thickness;
+            const float v = (x == 11 && y == 40 ? 60.0f : 0.0f) + float(0.5 + 0.5 * random_unit(x, y, 1));
+            return std::vector<Sample>{mist, {depth_of(wide, 9), {v, v, v, 1}}};
+        });
+    };
+    const auto taken = [&](float thickness, float brightness) {
+        Blocked blocked(behind_mist(thickness, brightness), wide);
+        return blocked.take().share;
+    };
+    const std::vector<float> alone = taken(1, 0);
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_EQ(taken(1, 1), alone);
+    EXPECT_EQ(taken(1, 100), alone);
+    EXPECT_GT(taken(0, 1).size(), 10u); // points of the same light are lamps
 }
 
 // A sample that covers n times as much counts like n samples.
