@@ -74,6 +74,24 @@ DenoisedLayer layer_of(const PackedView &view, const DenoisedPicture &denoised,
     return made;
 }
 
+// Throws Error if a denoised picture is clearly nearer to another view than to its own.
+void check_order(std::span<const DenoisedLayer> layers, std::span<const PackedView> views,
+                 std::span<const DenoisedPicture> denoised) {
+    const auto apart = [&](std::size_t picture, std::size_t view) {
+        const Values &a = layers[picture].denoised[0], &b = layers[view].noisy[0];
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            sum += double(std::abs(a[i] - b[i]) / (std::abs(a[i]) + std::abs(b[i]) + 1e-20f));
+        return sum;
+    };
+    for (std::size_t p = 0; p < views.size(); ++p)
+        for (std::size_t v = 0; v < views.size(); ++v)
+            if (layers[p].grid.size() == layers[v].grid.size() && apart(p, v) < 0.9 * apart(p, p))
+                throw Error(
+                    fmt::format("{}: shows what {} shows, not {}: give `denoised` in the order of the views",
+                                denoised[p].name, views[v].name, views[p].name));
+}
+
 // Adds the kept share of the details that the denoised values lack.
 void blend(DenoisedLayer &layer, const Values &kept) {
     parallel_ranges(kept.size(), std::size_t(1) << 14, [&](std::size_t begin, std::size_t end) {
@@ -100,6 +118,7 @@ std::vector<std::vector<NewPlane>> new_planes(std::span<const PackedView> views,
             layers.push_back(layer_of(views[v], denoised[v], channels, layer, mapping));
             means.push_back(averaged(layers[v], scale));
         }
+        check_order(layers, views, denoised);
         std::vector<Values> kept;
         for (std::size_t v = 0; v < views.size(); ++v) kept.push_back(kept_details(layers, means, v, scale));
         for (std::size_t v = 0; v < views.size(); ++v) {

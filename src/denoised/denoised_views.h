@@ -26,7 +26,8 @@ DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer);
 
 // Changes the colours of the views, which must be placed, with the centre view first. Layers of light that a denoised
 // picture lacks, and coverage, stay as they are. `focal_px` and `scale` are those of ReprojectedViews. Throws Error,
-// naming both files, if their windows differ, or if a picture has none of its view's layers; and if a view is deep.
+// naming both files, if their windows differ, if a picture has none of its view's layers or shows what another view
+// shows; and if a view is deep.
 void take_denoised(std::vector<PackedView> &views, std::span<const DenoisedPicture> denoised, double focal_px,
                    double scale);
 

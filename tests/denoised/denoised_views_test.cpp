@@ -147,6 +147,15 @@ TEST(DenoisedViews, PicturesThatDoNotFitAreNamed) {
     std::vector<DenoisedPicture> pictures = denoised_of(views);
     pictures[2] = {"small.exr", Image(windows_of_size(20, 15), rgba_channels())};
     expect_error(views, pictures, "small.exr: its windows are not those of");
+    for (const float noise : {0.0f, 0.1f, 0.4f}) {
+        const auto rendered = five_views(scene(noise), windows, radius);
+        pictures = denoised_of(five_views(scene(0), windows, radius));
+        pictures[2].name = "second.exr";
+        std::swap(pictures[2].image, pictures[3].image);
+        expect_error(rendered, pictures, "second.exr: shows what ");
+        pictures[3].image = pictures[2].image; // one twice
+        expect_error(rendered, pictures, ": give `denoised` in the order of the views");
+    }
     pictures = denoised_of(views);
     pictures[2].image.channels[0].name = "other.R";
     expect_error(views, pictures, "no colours");
