@@ -79,10 +79,9 @@ std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &le
     return padded(ldi, picture);
 }
 
-// How many pixels of the LDI, across and down, become one gathered pixel. It is more than 1 for a proxy, for quick
-// previews.
-int smaller_by(const WindowOptions &options, const Subpixels &by) {
-    return options.proxy > 1 ? options.proxy * by.across : 1;
+// How many pixels of the LDI, across and down, become one gathered pixel: more than 1 for previews.
+int smaller_by(const WindowOptions &options, int across) {
+    return options.proxy > 1 || options.joins_subpixels ? options.proxy * across : 1;
 }
 
 // Checks the pixels for which the LDI was warped, because the warp looks for images in steps of the picture's pixels.
@@ -141,19 +140,19 @@ void require_channels(const OpenedLdi &in) {
                     "its depth by `depth_file` where that is in a file of its own");
 }
 
-bool keeps_pixels(const WindowOptions &options, const Imf::Header &header) {
-    return options.proxy == 1 &&
+bool keeps_pixels(const WindowOptions &options, const Imf::Header &header, const Camera &camera) {
+    return smaller_by(options, options.supersample.value_or(camera.supersample.value_or(1))) == 1 &&
            (options.overscan != OutputOverscan::grow || holds(header.dataWindow(), header.displayWindow()));
 }
 
 ThinLens lens_in_gathered(const WindowOptions &options, const OpenedLdi &in, ThinLens lens) {
-    lens.focal_px /= smaller_by(options, subpixels_of(options, in));
+    lens.focal_px /= smaller_by(options, subpixels_of(options, in).across);
     return lens;
 }
 
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in) {
     const Subpixels by = subpixels_of(options, in);
-    const int smaller = smaller_by(options, by);
+    const int smaller = smaller_by(options, by.across);
     GatherWindows frame{reduced(read_picture_window(in.header), smaller), {}, {}, {}, {}};
     if (smaller > 1)
         frame.changed = proxy(in.ldi, smaller);
@@ -186,7 +185,8 @@ Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &ho
     if (coarse && holdout.windows.display != reduced(display, by.across))
         throw Error(name + ": its display window differs from that of the picture it holds out; use a "
                            "holdout of the same size");
-    if (options.proxy > 1) return proxy(holdout, coarse ? options.proxy : smaller_by(options, by));
+    const int smaller = smaller_by(options, by.across);
+    if (smaller > 1) return proxy(holdout, coarse ? options.proxy : smaller);
     if (!coarse) return holdout;
     check_copies(name, holdout, 1 + by.across * by.across);
     return enlarged(holdout, by.across);

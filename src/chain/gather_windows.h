@@ -29,6 +29,7 @@ struct WindowOptions {
     std::optional<int> supersample =
         {}; // sub-pixels of the LDI, across and down, per pixel; default: as in its file
     std::optional<PixelFilter> filter = {}; // default: as in its file, or else a box
+    bool joins_subpixels = false; // first makes one sample of a surface's samples in a pixel: a draft
 };
 
 // The sub-pixels, from the options or the file. Throws UsageError if the display window would cut a block of
@@ -36,8 +37,8 @@ struct WindowOptions {
 // (kernels/warp_rules.h).
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
 
-// The pixels to gather, the needed ones among them, and the picture that they become, by `subpixels`. A proxy consists
-// of its own pixels and has no sub-pixels.
+// The pixels to gather, the needed ones among them, and the picture that they become, by `subpixels`. A proxy, or a
+// picture whose sub-pixels are joined, consists of its own pixels and has no sub-pixels.
 struct GatherWindows {
     Imath::Box2i gathered, needed, picture;
     Subpixels subpixels;
@@ -56,10 +57,10 @@ void require_inside(const Imath::V2i &focus_pixel, const OpenedLdi &in, int acro
 // Throws Error if the LDI has nothing to gather but depth.
 void require_channels(const OpenedLdi &in);
 
-// Whether the LDI to gather keeps the pixels of the file, whatever they show.
-bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
+// Whether the LDI to gather keeps the pixels of the file, whatever they show. `camera`: of the file.
+bool keeps_pixels(const WindowOptions &options, const Imf::Header &header, const Camera &camera);
 
-// Returns the windows of the file, all needed; for a proxy, with an LDI reduced to its size.
+// Returns the windows of the file, all needed; for a smaller picture, with an LDI reduced to its size.
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in);
 
 // The lens of the LDI in the pixels that are gathered.

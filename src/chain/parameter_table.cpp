@@ -225,7 +225,12 @@ Rows<PictureRequest> gather_rows() {
     const Rows<PictureRequest> lens{
         {on_page(
              word("quality", {"draft", "normal", "final"}, "Trade of error against time (default: normal)")),
-         in(picture, gather, &GatherOptions::lens, &LensGatherOptions::quality)},
+         [](const Parameter &row, const std::string &text, PictureRequest &request) {
+             Quality &quality = request.picture.gather.lens.quality;
+             const bool is_word = read_place(row, text, quality);
+             request.windows.joins_subpixels = quality == Quality::draft;
+             return is_word;
+         }},
         {whole("lens-samples", "N",
                "Number of lens points in every tile; 0: chosen by quality and picture (default: 0)", 0,
                1 << 20),

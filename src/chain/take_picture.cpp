@@ -193,7 +193,7 @@ ChooseSamples choose_samples(const PictureRequest &request, bool keep, const Pic
     return [&request, &work](const Imf::Header &header, const Camera &camera,
                              const Ldi &rows) -> ReduceSamples {
         const LookValues values = work.looks->read(request.looks, camera.fstop).values;
-        if (!keeps_pixels(request.windows, header) || highlight_gain(values).gain != 1 ||
+        if (!keeps_pixels(request.windows, header, camera) || highlight_gain(values).gain != 1 ||
             !is_linear(work.tell, request.colour, request.input, header))
             return {};
         const ThinLens lens = resolve_lens(camera, rows.windows);

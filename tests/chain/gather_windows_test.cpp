@@ -102,6 +102,11 @@ TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
     const Image filtered = made({.supersample = 2, .filter = wide}),
                 some = made({.region = part, .supersample = 2, .filter = wide});
     EXPECT_EQ(some.values, crop(filtered, part).values);
+    const Image joined = made({.supersample = 2, .joins_subpixels = true});
+    EXPECT_EQ(joined.windows, all.windows);
+    for (std::size_t k = 0; k < 2; ++k)
+        for (const Imath::V2i &at : {Imath::V2i(70, 15), Imath::V2i(70, 17), Imath::V2i(73, 17)})
+            EXPECT_NEAR(joined.at(k, at.x, at.y), all.at(k, at.x, at.y), 1e-6);
     in.camera.supersample = 2;
     EXPECT_EQ(made({}).values, all.values);
     EXPECT_EQ(made({.supersample = 1}).windows.data, in.ldi.windows.data);
