@@ -12,10 +12,11 @@ write_basic_package_version_file(sparselens-config-version.cmake COMPATIBILITY S
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens COMPONENT dev)
-install(DIRECTORY share/ocio share/blender share/nuke share/lenses share/openjd share/slurm share/opencue share/python
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
+install(DIRECTORY share/ocio share/blender share/nuke share/comfyui share/lenses share/openjd share/slurm share/opencue
+        share/python DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
-install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens/blender/sparselens_blender)
+install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json LICENSE # the zip of this folder goes to others
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens/blender/sparselens_blender)
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}) # headers cite design.md
 install(DIRECTORY share/images share/blender share/lenses share/openjd share/slurm share/opencue

@@ -51,5 +51,6 @@ look chroma 'axial chromatic 0.1' --axial-chromatic 0.1
 look curve 'field curvature 0.3' --field-curvature 0.3
 look tilt 'tilt 10,5' --tilt 10,5
 look breath 'breathing 1' --breathing 1
-oiiotool "${tiles[@]}" --mosaic:pad=2 "4x$((${#tiles[@]} / 4))" -o "$out"
-oiiotool {blades6,mirror,cateye,chroma}.gathered.png --mosaic:pad=2 4x1 -o "${out%.png}-row.png"
+oiiotool "${tiles[@]}" --mosaic:pad=2 "4x$((${#tiles[@]} / 4))" --nosoftwareattrib --eraseattrib '.*' -o "$out"
+oiiotool {blades6,mirror,cateye,chroma}.gathered.png --mosaic:pad=2 4x1 --nosoftwareattrib --eraseattrib '.*' \
+    -o "${out%.png}-row.png"

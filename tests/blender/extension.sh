@@ -31,7 +31,7 @@ bpy.ops.preferences.addon_install(filepath='$PWD/sparselens_blender.zip')
 bpy.ops.preferences.addon_enable(module='sparselens_blender')" command=
     echo "add-on: installed; this Blender has no extensions"
 fi
-for version in 9.1 9.2 outside broken; do
+for version in 9.0 9.1 9.2 outside broken; do
     folder=sparselens-$version
     [ $version != outside ] || folder=elsewhere
     mkdir -p $folder/bin
@@ -58,6 +58,12 @@ assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
 assert bpy.ops.sparselens.take_picture() == {"FINISHED"}
 # Install Tools takes an archive: here one of small scripts. Files that are none are refused, and change nothing.
 preferences.folder = ""
+# The zip of a release has the archive in it: here one of version 9.0, which a newer one replaces.
+import sys
+beside = os.path.dirname(sys.modules[type(preferences).__module__].__file__)
+packed = os.path.join(beside, "sparselens-9.0.tar.xz")
+os.link("$PWD/sparselens-9.0.tar.xz", packed)
+assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
 for wrong in "not-packed.tar.xz", "outside.tar.xz", "broken.tar.xz":
     try:
         bpy.ops.sparselens.install_tools(filepath=os.path.join("$PWD", wrong))
@@ -70,6 +76,7 @@ for wrong in "not-packed.tar.xz", "outside.tar.xz", "broken.tar.xz":
 for version in "9.1", "9.2":
     assert bpy.ops.sparselens.install_tools(filepath="$PWD/sparselens-%s.tar.xz" % version) == {"FINISHED"}
     assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
+os.remove(packed)
 preferences.folder = "/nowhere"
 for operator in bpy.ops.sparselens.find_tools, bpy.ops.sparselens.take_picture:
     try:
@@ -83,6 +90,7 @@ cp said operated
 in_blender small.blend -P "$views" -- -o script --views 1 --samples 2
 for view in center view_0; do picture same installed/$view.exr script/$view.exr >found || fail "$view of the operator is not the script's ($(cat found))"; done
 grep -q "dof-gather (sparselens) [0-9.]*, the chosen folder: $bin" operated || fail "the button Test: $(tail -n 5 operated)"
+grep -q "dof-gather of 9.0, installed: " operated || fail "the archive in the zip: $(tail -n 5 operated)"
 grep -q "dof-gather of 9.2, installed: " operated || fail "Install Tools: $(tail -n 5 operated)"
 [ "$(find home -name 'sparselens-9*' -o -name '.new-*' | xargs -n 1 basename)" = sparselens-9.2 ] || fail "Install Tools left $(find home -name 'sparselens-9*')"
 find home -name sparselens-9.2 | xargs rm -r

@@ -8,6 +8,8 @@ import subprocess
 
 import bpy
 
+from . import unpack
+
 HERE = os.path.dirname(os.path.realpath(__file__))
 ENDING = ".exe" if os.name == "nt" else ""
 NAMES = "ldi-warp", "dof-gather"
@@ -34,7 +36,19 @@ def folders_unpacked(place):
 
 
 def folders_installed():
-    return folders_unpacked(folder_of_archives())
+    """What Install Tools unpacked; before that, the archive that came in the
+    add-on's own zip, unless a newer one is installed."""
+    place = folder_of_archives()
+    for archive in glob.glob(os.path.join(glob.escape(HERE),
+                                          "sparselens-*.tar.xz")):
+        name = os.path.basename(archive)[:-len(".tar.xz")]
+        if os.path.join(place, name, "bin") > max(folders_unpacked(place),
+                                                  default=""):
+            try:
+                unpack.unpack(archive, place)
+            except (OSError, ValueError):
+                pass  # another Blender has unpacked it, or there is no room
+    return folders_unpacked(place)
 
 
 def folders_beside():

@@ -8,8 +8,6 @@ import shutil
 import tarfile
 import tempfile
 
-from . import tools
-
 TOP = re.compile(r"sparselens-[\w.-]+")
 
 
@@ -33,6 +31,7 @@ def top_of(archive, path):
 def unpack(path, folder):
     """Unpacks the archive into the folder, in the place of earlier ones.
     Returns the folder of the tools. Nothing changes if they do not run."""
+    from . import tools  # which uses this module, too
     try:
         with tarfile.open(path) as archive:
             top = top_of(archive, path)
