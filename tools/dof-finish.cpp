@@ -165,7 +165,7 @@ void run(const FinishCommand &options, const ToolContext &tool) {
                  "{} pixels of the renders are missing, not finite or beyond 1e8: they stay as gathered",
                  picture.rays.missing()));
     FinishedPicture finished = finish_picture(std::move(picture), *tool.progress);
-    for (const std::string &text : finished.mistakes.warnings()) warn(tool, text);
+    for (const std::string &text : finished.warnings) warn(tool, text);
     if (!finished.as_gathered.empty())
         tool.say(fmt::format("stay as gathered, because a render lacks them: {}",
                              fmt::join(finished.as_gathered, ", ")));

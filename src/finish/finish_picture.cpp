@@ -63,18 +63,6 @@ void check_window(const Render &render, const Windows &windows) {
                         render.name, own.pixel_aspect, windows.pixel_aspect));
 }
 
-// Whether two renders have the same noise. Pixels that equal their neighbour do not tell, because they may have none; of
-// the others, those in focus may be equal in two honest renders.
-bool have_same_noise(std::span<const half> a, std::span<const half> b) {
-    std::size_t told = 0, differ = 0;
-    for (std::size_t i = 1; i < a.size(); ++i) {
-        if (a[i] == a[i - 1]) continue;
-        ++told;
-        differ += a[i] != b[i];
-    }
-    return told > 0 && double(differ) < FinishTuning::different_noise * double(told);
-}
-
 // Leaves only finite values: where a render has none, the gathered value; where the gathered picture has none either,
 // 0.
 void settle(Colours &gathered, std::vector<Halves *> halves) {
@@ -170,6 +158,8 @@ LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> 
 
 TwoHalves::TwoHalves(const Image &gathered)
     : windows_(gathered.windows), channels_(gathered.channels), has_(channels_.size()) {
+    if (const std::size_t green = find_channel(channels_, rgb_names[1]); green != npos)
+        gathered_green_.assign(gathered.plane(green).begin(), gathered.plane(green).end());
     for (std::size_t c = 0; c < channels_.size(); ++c) has_[c] = is_finished(channels_[c]);
     for (auto &half : sums_) half.resize(channels_.size());
 }
@@ -202,14 +192,32 @@ void TwoHalves::add_noisy(const Render &render) {
     check_window(render, windows_);
     if (const std::size_t from = find_channel(render.image.channels, rgb_names[1]); from != npos) {
         const Values values = over(render.image, from, windows_);
-        std::vector<half> own(values.begin(), values.end());
-        for (const auto &[name, other] : noisy_)
-            if (have_same_noise(own, other))
-                throw Error(fmt::format("{}: has the same noise as {}: render each with a seed of its own",
-                                        render.name, name));
-        noisy_.emplace_back(render.name, std::move(own));
+        Noisy own{render.name, {values.begin(), values.end()}, render.samples};
+        for (const Noisy &other : noisy_) compare(other, own);
+        noisy_.push_back(std::move(own));
     }
     add(render);
+}
+
+void TwoHalves::compare(const Noisy &one, const Noisy &two) {
+    const NoiseOfTwo noise = noise_of_two(one.green, two.green, gathered_green_, windows_.grid());
+    if (noise.same())
+        throw Error(fmt::format("{}: has the same noise as {}: render each with a seed of its own", two.name,
+                                one.name));
+    if (noise.alike > FinishTuning::noise_alike) {
+        doubts_.push_back(
+            fmt::format("{} and {} do not differ by noise, but as smooth pictures do: give renders of "
+                        "one picture as they are, without denoising",
+                        one.name, two.name));
+        return;
+    }
+    const double told = one.samples * two.samples / (one.samples + two.samples);
+    for (const auto &[render, share] : {std::pair(&one, noise.of_each[0]), std::pair(&two, noise.of_each[1])})
+        if (share < FinishTuning::little_noise * told / render->samples)
+            doubts_.push_back(
+                fmt::format("{} has less noise than its samples tell: give renders as they are, without "
+                            "denoising, and the right numbers of samples",
+                            render->name));
 }
 
 std::array<Values, 2> TwoHalves::take(std::size_t channel) {
@@ -234,7 +242,9 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         const bool beauty = std::ranges::find(channels, colours[0]) != channels.end();
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
-            finished.mistakes = check_lens(layer);
+            finished.warnings = check_lens(layer).warnings();
+            finished.warnings.insert(finished.warnings.end(), picture.rays.doubts().begin(),
+                                     picture.rays.doubts().end());
             finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
         }

@@ -57,9 +57,11 @@ public:
     // Throws Error, naming the file, if its display window differs from that of the gathered picture.
     void add(const Render &render);
     // The same for a render with noise. Also throws Error if it has the noise of an earlier one: it is the same render, or
-    // one with the same seed, so the difference of the halves would not tell the noise.
+    // one with the same seed, so the difference of the halves would not tell the noise. Other noise than samples make gives
+    // a doubt.
     void add_noisy(const Render &render);
-    bool complete() const; // whether both halves have a render
+    const std::vector<std::string> &doubts() const { return doubts_; } // for warnings
+    bool complete() const;                                             // whether both halves have a render
 
     std::array<double, 2> samples() const { return samples_; }
     std::size_t missing() const {
@@ -71,13 +73,22 @@ public:
     bool has(std::size_t channel) const { return has_[channel]; }
 
 private:
+    struct Noisy {
+        std::string name;
+        std::vector<half> green;
+        double samples;
+    };
+    void compare(const Noisy &one, const Noisy &two);
+
     Windows windows_;
     std::vector<Channel> channels_;
+    std::vector<half> gathered_green_;
     std::array<std::vector<Values>, 2> sums_; // by channel of the gathered picture; empty: not finished
     std::vector<bool> has_;
     std::array<double, 2> samples_{0, 0};
     std::size_t missing_ = 0;
-    std::vector<std::pair<std::string, std::vector<half>>> noisy_; // the name and the green of each
+    std::vector<Noisy> noisy_;
+    std::vector<std::string> doubts_;
 };
 
 // A frame near the one to finish (frames_around.h).
@@ -98,7 +109,7 @@ struct FinishedPicture {
     Image image;
     Values kept;                          // for R, G and B: 1 as gathered, 0 as the rays
     ErrorEstimate error;                  // for R, G and B
-    LensMistakes mistakes;                // for R, G and B
+    std::vector<std::string> warnings;    // mistakes in R, G and B, and doubts about the renders
     std::vector<std::string> as_gathered; // names of light channels that the renders lack
 };
 

@@ -144,6 +144,124 @@ std::vector<std::string> LensMistakes::warnings() const {
     return texts;
 }
 
+bool NoiseOfTwo::same() const {
+    return equal >= FinishTuning::same_noise || std::abs(of_each[0] - of_each[1]) > FinishTuning::no_share ||
+           (equal_excess >= FinishTuning::same_excess && excess >= FinishTuning::least_excess);
+}
+
+namespace {
+
+// The second difference along a row. NaN if it is not known.
+float bend(std::span<const float> plane, std::size_t i) {
+    return plane[i] - (plane[i - 1] + plane[i + 1]) / 2;
+}
+
+// Pairs of pixels a few pixels apart: how many there are, how many of their differences have the same direction, and how many
+// would by chance.
+struct Directions {
+    std::size_t same = 0, all = 0;
+    double expected = 0;
+};
+
+// In a block, to the left of or above each pixel `i`, at i - apart.
+void add_directions(const Values &a, const Values &b, const Grid &grid, const Imath::Box2i &box,
+                    std::size_t apart, Directions &sum) {
+    std::size_t all = 0, same = 0, up = 0, other_up = 0;
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const std::size_t i = grid.index(x, y), j = i - apart;
+            const float here = a[i] - b[i], there = a[j] - b[j];
+            if (here == 0 || there == 0 || !std::isfinite(here + there)) continue;
+            ++all;
+            same += (here > 0) == (there > 0);
+            up += here > 0;
+            other_up += there > 0;
+        }
+    if (all == 0) return;
+    const double p = double(up) / double(all), q = double(other_up) / double(all);
+    sum.all += all;
+    sum.same += same;
+    sum.expected += double(all) * (p * q + (1 - p) * (1 - q));
+}
+
+// How many more of them agree than by chance, and by four standard deviations of it.
+double agreement(const Values &a, const Values &b, const Grid &grid) {
+    constexpr int apart = FinishTuning::noise_apart;
+    Directions sum;
+    for (const Imath::V2i &by : {Imath::V2i(apart, 0), Imath::V2i(0, apart)}) {
+        if (grid.width() <= by.x || grid.height() <= by.y) continue;
+        const Tiles tiles({by, Imath::V2i(grid.width() - 1, grid.height() - 1)}, FinishTuning::block_px);
+        for (std::size_t t = 0; t < tiles.count(); ++t)
+            add_directions(a, b, grid, tiles.box(t), grid.index(by.x, by.y), sum);
+    }
+    if (sum.all == 0) return 0;
+    return (double(sum.same) - sum.expected) / double(sum.all) - 2 / std::sqrt(double(sum.all));
+}
+
+// The share of the first render in the noise, the median over blocks; 1/2 if nothing tells.
+double noise_of_first(const Values &first, const Values &second, const Values &gathered, const Grid &grid) {
+    if (grid.width() < 3) return 0.5;
+    const Tiles tiles({Imath::V2i(1, 0), Imath::V2i(grid.width() - 2, grid.height() - 1)},
+                      FinishTuning::noise_block_px);
+    std::vector<double> shares;
+    for (std::size_t b = 0; b < tiles.count(); ++b) {
+        const Imath::Box2i box = tiles.box(b);
+        double own = 0, all = 0;
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) {
+                const std::size_t i = grid.index(x, y);
+                const double one = double(bend(first, i)), apart = one - double(bend(second, i)),
+                             product = (one - double(bend(gathered, i))) * apart;
+                if (!std::isfinite(product) || !std::isfinite(apart)) continue;
+                own += product;
+                all += apart * apart;
+            }
+        if (all > 0) shares.push_back(own / all);
+    }
+    if (shares.empty()) return 0.5;
+    const auto middle = shares.begin() + std::ptrdiff_t(shares.size() / 2);
+    std::ranges::nth_element(shares, middle);
+    return *middle;
+}
+
+Values mapped(std::span<const half> values) {
+    Values result(values.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const float v = values[i];
+        result[i] = v >= 0 ? v / (1 + v) : std::min(v, 0.0f);
+    }
+    return result;
+}
+
+} // namespace
+
+NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> second,
+                        std::span<const half> gathered, const Grid &grid) {
+    const Values a = mapped(first), b = mapped(second), g = mapped(gathered);
+    const auto width = std::size_t(grid.width());
+    std::size_t rough = 0, equal = 0, excess = 0, equal_excess = 0;
+    for (std::size_t i = 1; i + 1 < a.size(); ++i) {
+        const float bent = bend(a, i);
+        const bool inside = i % width > 0 && (i + 1) % width > 0;
+        if (!inside || !(a[i] > a[i - 1] && a[i] > a[i + 1] && bent > FinishTuning::rough * std::abs(a[i])))
+            continue;
+        const bool is_equal = std::abs(a[i] - b[i]) <= FinishTuning::same_value * std::abs(a[i]);
+        ++rough;
+        equal += is_equal;
+        if (!(bent > 2 * std::abs(bend(g, i)))) continue;
+        ++excess;
+        equal_excess += is_equal;
+    }
+    const auto share = [](std::size_t part, std::size_t all) {
+        return all > 0 ? double(part) / double(all) : 0;
+    };
+    NoiseOfTwo found{
+        share(equal, rough), share(equal_excess, excess), share(excess, a.size()), agreement(a, b, grid), {}};
+    const double of_first = noise_of_first(a, b, g, grid);
+    found.of_each = {of_first, 1 - of_first};
+    return found;
+}
+
 namespace {
 
 bool differ(double a, double b) {
@@ -188,6 +306,13 @@ std::vector<std::string> lens_differences(const Camera &gathered, const Camera &
     if (gathered.world_to_camera && render.world_to_camera &&
         differ(*gathered.world_to_camera, *render.world_to_camera))
         found.emplace_back("a camera that stands or looks elsewhere (worldToCamera)");
+    const auto focal = focal_length_px(gathered, 1), other_focal = focal_length_px(render, 1);
+    if (focal && other_focal && differ(*focal, *other_focal))
+        found.push_back(
+            fmt::format("a focal length of {:.4g} widths of the picture, not {:.4g}", *other_focal, *focal));
+    if (gathered.principal_point && render.principal_point &&
+        (*gathered.principal_point - *render.principal_point).length() > FinishTuning::axis_difference)
+        found.emplace_back("a lens shifted elsewhere");
     const LookValues &looks = gathered.looks, &other = render.looks;
     const double squeeze = looks.squeeze.value_or(1), other_squeeze = other.squeeze.value_or(squeeze);
     if (differ(squeeze, other_squeeze))

@@ -15,6 +15,8 @@
 #include "finish/finish.h"
 #include "view/view.h"
 
+#include <Imath/half.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,9 +32,26 @@ struct LensMistakes {
 
 LensMistakes check_lens(const LayerToFinish &layer);
 
+// What one channel of two renders and of the gathered picture tells about their noise. Values that are not finite are
+// left out.
+//
+// The renders differ by noise alone. Noise is independent from pixel to pixel, so in a block, as many pixels as by chance
+// differ in the same direction as others nearby. If more do, the renders are denoised, or not of one picture. Of the square of their difference, its product with what each render has beyond the gathered picture is that render's own.
+struct NoiseOfTwo {
+    double equal = 0;                        // the share of rough pixels that are the same
+    double equal_excess = 0;                 // the same for those that are smoother in the gathered picture,
+    double excess = 0;                       // which are this share of the picture
+    double alike = 0;                        // how many more signs than half agree, beyond chance
+    std::array<double, 2> of_each{0.5, 0.5}; // shares of the noise
+    bool same() const;
+};
+
+NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> second,
+                        std::span<const half> gathered, const Grid &grid);
+
 // Compares the lenses and cameras of a gathered picture and a render by their headers. The differences, in words: the
-// aperture's radius, its blades, their rotation, its squeeze, the focus distance, and where the camera stands and looks.
-// Values that a header lacks are not compared.
+// aperture's radius, its blades, their rotation, its squeeze, the focus distance, where the camera stands and looks, its
+// focal length and shift. Values that a header lacks are not compared.
 // Blades are compared if both headers name them, 0 for none.
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render);
 

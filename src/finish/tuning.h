@@ -41,9 +41,23 @@ struct FinishTuning {
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
-    // Two renders have the same noise unless this share of the pixels that light varies in differs: files of another
-    // compression, or of another GPU, differ a little.
-    static constexpr double different_noise = 0.1;
+    // How the noise of two renders is compared (lens_check.h). Smaller relative differences come from other compressions or
+    // GPUs; rough pixels have a second difference along the row of at least this share of their value.
+    static constexpr float same_value = 1.0f / 512, rough = 1.0f / 64;
+    // Two renders have the same noise if this share of all rough pixels is the same, or this share of those that are
+    // smoother in the gathered picture, if these are that many of the picture. Good renders of 24 sets: .05 at most; half of
+    // a render in another one: .22 to .5.
+    static constexpr double same_noise = 0.9, same_excess = 0.2, least_excess = 0.02;
+    // Noise is alike if so many more directions than by chance agree at this distance, in pixels, which no filter of pixels
+    // reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised renders: .01 to .2, but for 140 rays,
+    // which a denoiser leaves as they are.
+    static constexpr int noise_apart = 3;
+    static constexpr double noise_alike = 0.01;
+    // Shares of the noise that differ by more are of noise that is the same but for a factor. Good renders: 1 at most.
+    static constexpr double no_share = 4;
+    // A render has too little noise if the median of blocks of this side finds less than this part of what its samples tell.
+    static constexpr double little_noise = 0.4;
+    static constexpr int noise_block_px = 16;
 
     // Side, in pixels, of the blocks that count by how well a mistake explains them; and the number of fits.
     static constexpr int mistake_block_px = 16, mistake_passes = 8;
@@ -58,6 +72,8 @@ struct FinishTuning {
     // Smallest relative difference, and smallest rotation of blades, that make another lens. Smaller ones come from
     // rounded f-numbers.
     static constexpr double lens_difference = 0.02, turned_degrees = 2;
+    // The same for the optical axis, widths of the picture: a pixel of 1000.
+    static constexpr double axis_difference = 0.001;
 
     // Rays of each view beyond which rays through the lens are worth more (plan.h). With five views, 4, 8, 16 and 32 have, of
     // 320 rays in all, 47.9, 48.7, 48.9, 48.7 dB on fence, 48.4, 48.6, 48.4, 48.1 on grass, 50.7, 51.6, 51.5, 51.2 on mirror.

@@ -122,7 +122,7 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
                 {other->image, added_up("around", of_other, samples, in, tell, &TwoHalves::add_noisy)});
         return finish_picture(std::move(picture), said);
     });
-    for (const std::string &text : made.mistakes.warnings()) warn(text);
+    for (const std::string &text : made.warnings) warn(text);
     const auto known = decibels(made.error);
     for (float &e : made.error.map) e = std::sqrt(e);
     py::dict found;

@@ -62,15 +62,21 @@ TEST(TwoHalves, EqualRendersTakeTurns) {
 
 TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     TwoHalves halves(picture_of(truth));
-    Render other = render(1);
-    other.image.windows.display.max.x += 1;
-    try {
-        halves.add(other);
-        FAIL() << "taken";
-    } catch (const Error &error) {
-        EXPECT_NE(std::string(error.what()).find("rays.exr"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("65x48"), std::string::npos);
-    }
+    const auto refused = [&](const std::string &named, const auto &change) {
+        Render other = render(1);
+        change(other.image.windows);
+        try {
+            halves.add(other);
+            FAIL() << "taken";
+        } catch (const Error &error) {
+            EXPECT_EQ(std::string(error.what()).find("rays.exr: its p" + named), 0u) << error.what();
+        }
+    };
+    refused("icture is 65x48, the gathered one 64x48", [](Windows &w) { w.display.max.x += 1; });
+    refused("icture is 64x48 at 4,-2, the gathered one 64x48", [](Windows &w) {
+        w.display = {w.display.min + Imath::V2i(4, -2), w.display.max + Imath::V2i(4, -2)};
+    });
+    refused("ixel aspect ratio is 2, that of the gathered picture 1", [](Windows &w) { w.pixel_aspect = 2; });
 }
 
 TEST(TwoHalves, TheSameNoiseTwiceIsAnErrorThatNamesBoth) {
@@ -91,6 +97,29 @@ TEST(TwoHalves, TheSameNoiseTwiceIsAnErrorThatNamesBoth) {
     Render constant{"constant.exr", picture_of(Colours(3, Values(grid.size(), 0.5f)))}; // it cannot tell
     halves.add_noisy(constant);
     halves.add_noisy(constant);
+}
+
+TEST(TwoHalves, RendersWithoutTheirNoiseAreDoubted) {
+    const Image gathered = picture_of(blurred(truth, grid, 1));
+    const auto doubts = [&](const Render &first, const Render &second) {
+        TwoHalves halves(gathered);
+        halves.add_noisy(first);
+        halves.add_noisy(second);
+        Progress silent;
+        return finish_picture({gathered, std::move(halves)}, silent).warnings;
+    };
+    const auto denoised = [](std::uint32_t seed) {
+        return Render{"smooth.exr", picture_of(blurred(rays_of(truth, 16, seed), grid, 2)), 16};
+    };
+    EXPECT_EQ(doubts(render(1), render(2, 4)), std::vector<std::string>());
+    ASSERT_EQ(doubts(denoised(1), denoised(2)).size(), 1u);
+    EXPECT_EQ(doubts(denoised(1), denoised(2))[0].find("smooth.exr and smooth.exr do not differ by noise"),
+              0u);
+    for (const auto &given :
+         {doubts(render(1), denoised(1)), doubts({"smooth.exr", gathered, 16}, render(2))}) {
+        ASSERT_EQ(given.size(), 1u);
+        EXPECT_EQ(given[0].find("smooth.exr has less noise than its samples tell"), 0u);
+    }
 }
 
 // Renders with different data windows: where one has no data, the picture stays as gathered.

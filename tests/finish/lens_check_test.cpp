@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace sparselens {
 namespace {
 
@@ -92,6 +95,51 @@ TEST(LensCheck, BlackAndTinyPicturesAreFine) {
     EXPECT_TRUE(check_lens({grid, black, {black, black}}).warnings().empty());
     const Colours dot(3, Values(1, 1.0f));
     EXPECT_TRUE(check_lens({Grid(1, 1), dot, {dot, dot}}).warnings().empty());
+}
+
+// Channel 1 of two renders and of a gathered picture.
+std::vector<half> plane(const Colours &colours) { return {colours[1].begin(), colours[1].end()}; }
+NoiseOfTwo noise(const Colours &first, const Colours &second, const Colours &gathered) {
+    return noise_of_two(plane(first), plane(second), plane(gathered), grid);
+}
+bool smooth(const NoiseOfTwo &found) { return found.alike > FinishTuning::noise_alike; }
+
+TEST(NoiseOfTwo, GoodRendersHaveNoiseBySamples) {
+    for (const auto &samples : {std::array{1.0, 1.0}, {16, 16}, {64, 16}, {16, 1024}, {1024, 1024}})
+        for (const int blur : {0, 1, 8}) {
+            const Colours gathered = blurred(truth, grid, blur);
+            const NoiseOfTwo found =
+                noise(rays_of(truth, samples[0], 1), rays_of(truth, samples[1], 2), gathered);
+            EXPECT_FALSE(found.same() || smooth(found)) << samples[0] << ' ' << blur;
+            const double all = samples[0] + samples[1];
+            for (std::size_t k = 0; k < 2; ++k)
+                EXPECT_NEAR(found.of_each[k], samples[1 - k] / all, 0.15 * samples[1 - k] / all + 0.01)
+                    << samples[k] << ' ' << blur;
+        }
+}
+
+// Equal in half of the pixels, or but for a factor.
+TEST(NoiseOfTwo, TheSameNoiseIsToldThoughRendersDiffer) {
+    const Colours first = rays_of(truth, 16, 1);
+    Colours half_of_it = rays_of(truth, 16, 2);
+    for (std::size_t c = 0; c < 3; ++c) std::copy_n(first[c].begin(), grid.size() / 2, half_of_it[c].begin());
+    EXPECT_TRUE(noise(first, half_of_it, truth).same());
+    EXPECT_TRUE(noise(half_of_it, first, truth).same());
+    EXPECT_TRUE(noise(first, times(first, 1.0001f), truth).same());
+    EXPECT_TRUE(noise(times(first, 1.2f), first, truth).same());
+}
+
+// Missing and infinite values tell nothing.
+TEST(NoiseOfTwo, RendersWithoutNoiseAreTold) {
+    Colours first = rays_of(truth, 16, 1), second = rays_of(truth, 16, 2);
+    std::fill_n(first[1].begin(), grid.size() / 4, std::numeric_limits<float>::quiet_NaN());
+    std::fill_n(second[1].end() - 2000, 2000, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(smooth(noise(first, second, truth)));
+    EXPECT_NEAR(noise(first, second, truth).of_each[0], 0.5, 0.05);
+    EXPECT_TRUE(smooth(noise(blurred(rays_of(truth, 16, 1), grid, 2), blurred(second, grid, 2), truth)));
+    const NoiseOfTwo gathered = noise(first, blurred(truth, grid, 1), blurred(truth, grid, 1));
+    EXPECT_NEAR(gathered.of_each[0], 1, 0.01);
+    EXPECT_NEAR(gathered.of_each[1], 0, 0.01);
 }
 
 } // namespace

@@ -57,6 +57,17 @@ TEST(LensHeaders, AnotherPlaceOfTheCameraIsNamed) {
     EXPECT_EQ(lens_differences(camera(), moved), Texts());
 }
 
+TEST(LensHeaders, AnotherProjectionIsNamed) {
+    Camera here = camera(), wide = camera(), shifted = camera();
+    here.field = 1, wide.field = 1.25;
+    EXPECT_EQ(lens_differences(here, wide), Texts{"a focal length of 0.8 widths of the picture, not 1"});
+    wide.field = 1.01;
+    EXPECT_EQ(lens_differences(here, wide), Texts());
+    here.principal_point = Imath::V2d(0.1, 0), shifted.principal_point = Imath::V2d(0.1, 0.05);
+    EXPECT_EQ(lens_differences(here, here), Texts());
+    EXPECT_EQ(lens_differences(here, shifted), Texts{"a lens shifted elsewhere"});
+}
+
 // A hexagon turned by one side is the same.
 TEST(LensHeaders, ARotationIsNamedWhereItShows) {
     Camera hexagon = camera(), turned = camera();

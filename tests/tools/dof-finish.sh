@@ -161,6 +161,30 @@ done
 exits 0 "$finish" wrong.exr silent_1.exr silent_2.exr -o x1.exr
 if grep 'another lens' stderr; then fail "a header that does not name its lens"; fi
 
+# Another camera, field of view or colour space: named, or converted.
+exits 0 "$bin/dof-trace" fence --size 160x90 --views 0 --halves 16 --dolly 0.3 -o moved
+exits 0 "$finish" gathered.exr moved/rays_1.exr moved/rays_2.exr -o x1.exr
+[ "$(grep -c '^dof-finish: warning: moved/rays_[12].exr: another lens or camera .*: a camera that stands or looks elsewhere (worldToCamera)$' stderr)" -eq 2 ] ||
+    fail "another camera: $(cat stderr)"
+exits 0 "$bin/dof-gather" ldi.exr --output-colorspace ACEScg -o aces.exr
+exits 0 "$finish" aces.exr $one $two -o x1.exr --output-colorspace lin_rec709
+[ "$(grep -c 'fence/rays_[12].exr: its colours are in another space than those of aces.exr, and are converted' stderr)" -eq 2 ] ||
+    fail "other colours: $(cat stderr)"
+holds "$(decibels x1.exr $truth) > $db - 0.3" "colours of another space: $(decibels x1.exr $truth)"
+
+# Renders without their noise, or with that of another: named.
+oiiotool $one --median 5x5 -o median_1.exr
+oiiotool $two --median 5x5 -o median_2.exr
+exits 0 "$finish" gathered.exr median_1.exr median_2.exr -o x1.exr
+grep -Eq '^dof-finish: warning: median_1.exr and median_2.exr do not differ by noise' stderr || fail "denoised renders: $(cat stderr)"
+exits 0 "$finish" gathered.exr $one gathered.exr -o x1.exr
+[ "$(cat stderr)" = "dof-finish: warning: gathered.exr has less noise than its samples tell: give renders as they are, without denoising, and the right numbers of samples" ] ||
+    fail "the gathered picture as a render: $(cat stderr)"
+oiiotool $one --mulc 1.0001 -o copy.exr
+fails_saying 1 'copy.exr: has the same noise as fence/rays_1.exr' "$finish" gathered.exr $one copy.exr -o x.exr
+oiiotool $one --crop 160x45+0+0 $two --over -o copy.exr
+fails_saying 1 'copy.exr: has the same noise as fence/rays_1.exr' "$finish" gathered.exr $one copy.exr -o x.exr
+
 # Failures: one line that says what to do; the old output stays.
 fails_saying 2 'one render alone cannot tell.*another seed' "$finish" gathered.exr $one -o x.exr
 picture edit $two small.exr crop=80x90+0+0
