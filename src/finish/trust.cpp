@@ -106,7 +106,7 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
         });
 
     const Tiles blocks(grid.box(), FinishTuning::block_px / FinishTuning::trust_cell);
-    std::vector<ClassSums> sums(blocks.count());
+    std::vector<ClassSums> of_one(blocks.count()), of_all(blocks.count());
     const auto pixels = double(cells.side() * cells.side());
     const double of_both = samples[0] * samples[1] / (samples[0] + samples[1]);
     parallel_for(blocks.count(), [&](std::size_t b) {
@@ -121,17 +121,23 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                     // The part of a change that is noise, as shown by the difference between the renders' changes,
                     // costs more.
                     const double noise = double(evidence.spread[i]) * of_both / samples[k];
-                    sums[b].answers[cell] += count * double(evidence.confirmed[k][i]);
-                    sums[b].energies[cell] +=
-                        count * (double(evidence.energy[k][i]) + noise * FinishTuning::noise_costs);
-                    sums[b].unseen[cell] += count * double(evidence.removed[k][i]) * evidence.event_height;
+                    const auto add = [&](ClassSums &sums, double its_noise) {
+                        sums.answers[cell] += count * double(evidence.confirmed[k][i]);
+                        sums.energies[cell] += count * (double(evidence.energy[k][i]) + (its_noise - noise) +
+                                                        its_noise * FinishTuning::noise_costs);
+                        sums.unseen[cell] += count * double(evidence.removed[k][i]) * evidence.event_height;
+                    };
+                    add(of_one[b], noise);
+                    // The picture of both renders has the noise of neither: it is as if both had equal samples.
+                    add(of_all[b], double(evidence.spread[i]) * of_both * 2 / (samples[0] + samples[1]));
                 }
             }
     });
-    const Shares shares = shares_of(std::move(sums));
+    const Shares shares_of_one = shares_of(std::move(of_one)), shares_of_all = shares_of(std::move(of_all));
 
     std::array<Values, 3> share;
     for (std::size_t k = 0; k < 3; ++k) {
+        const Shares &shares = k < 2 ? shares_of_one : shares_of_all;
         share[k].resize(grid.size());
         for_cells(grid, [&](std::size_t i) {
             share[k][i] = share_at(shares, measures.confirmed[k][i], measures.energy_ratio[k][i]);

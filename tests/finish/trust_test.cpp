@@ -87,6 +87,17 @@ TEST(Trust, NoiseCosts) {
     }
 }
 
+// The picture of both renders has the noise of neither. With three times the samples in the first, the noise of the changes
+// that are tested is 2 d^2 and 6 d^2, tested by 1 and 3: 5 d^2 on average; that of two equal halves is 3 d^2.
+TEST(Trust, UnequalRendersCostTheNoiseOfBoth) {
+    for (const double d : {0.25, 0.5}) {
+        const auto more = float(1 + d), less = float(1 - d);
+        const double energy = 3 + 2 * d * d - 5 * d * d + (1 + FinishTuning::noise_costs) * 3 * d * d;
+        for (const auto &samples : {std::array<double, 2>{3, 1}, {1, 3}})
+            EXPECT_NEAR(blended({{{more, less, 1}, {less, more, 1}}}, {1, 1}, samples), 3 / energy, 1e-3);
+    }
+}
+
 // Black pixels, for which the first render, of three times the samples, offers 1.
 TEST(CellEvidence, WeighsRendersByTheirSamples) {
     const Grid few(8, 4);
