@@ -26,20 +26,6 @@ for step in "${steps[@]}"; do [[ $step =~ ^(demo|tests|wheel|blender)$ ]] || fai
 roots=${SPARSELENS_ROOTS:-/var/tmp/sparselens-roots}
 root=$roots/$suite
 
-# Uses this machine's apt settings: the mirror, a proxy, and whether old lists are acceptable.
-make_root() {
-    command -v debootstrap >/dev/null || fail "debootstrap is not installed"
-    local mirror proxy=
-    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Label: Debian' 'Created-By: Packages' | sort -u | head -n 1)
-    [ -n "$mirror" ] || fail "apt knows no mirror of Debian: apt-get update"
-    eval "$(apt-config shell proxy Acquire::http::Proxy)"
-    mkdir -p "$roots"
-    http_proxy=${proxy:-${http_proxy-}} debootstrap --variant=minbase "$suite" "$root.new" "$mirror" >"$root-root.log" 2>&1 ||
-        fail "debootstrap: $(tail -n 1 "$root-root.log")"
-    apt-config dump | grep -E '^Acquire::(http::Proxy|Check-Valid-Until|Check-Date) ' >"$root.new/etc/apt/apt.conf.d/99host" || true
-    mv "$root.new" "$root"
-}
-
 # Mounts are private, so that they cannot reach the machine's own /dev, and unmounting them does not affect it.
 mounted=()
 mount_at() { # FOLDER ARGUMENT...
@@ -57,7 +43,7 @@ within() {
         ${CCACHE_DIR:+CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_SLOPPINESS=pch_defines,time_macros} chroot "$root" bash -euc "cd /root/sparselens && $1"
 }
 
-[ -e "$root/etc/debian_version" ] || make_root
+tests/make-root.sh "$suite" "$root"
 trap unmount EXIT
 mount_at /proc -t proc proc
 mount_at /sys -t sysfs sysfs

@@ -107,8 +107,9 @@ share/doc/sparselens/README.md says what they do, and licences/ under which lice
 share/sparselens/blender/sparselens_blender.zip as an add-on. Its preferences have "Install Tools", which takes the archive;
 or name bin/ there.
 
-The Python module is not here, because it works with one version of Python only: build it with pip from the sources
-(share/doc/sparselens/docs/python.md).
+The Python module is not here, because it works with one version of Python only: the wheel has it.
+
+EXR is that of OpenEXR $(dpkg-query -W -f='${Version}' libopenexr-dev | sed 's/-.*//'). Files of newer compressions: oiiotool IN --compression zips -o OUT.exr.
 END
 
 size="unpacked $(($(du -s --apparent-size -B1 "$root" | cut -f1) / 1000000)) MB"
