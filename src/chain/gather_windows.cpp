@@ -212,9 +212,10 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
     return left_out;
 }
 
-// Checks flat pictures only, because deep pictures are made by programs that write them correctly.
+// Checks flat renders only, because deep pictures are made by programs that write them correctly. A photograph has soft
+// edges and an estimated depth, and is none.
 void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
-    if (in.deep) return;
+    if (in.deep || in.depth == DepthMeaning::disparity) return;
     tell_warnings(tell, picture_warnings(front_view(in.ldi, in.name),
                                          {in.depth, in.depth_filtered, in.camera, in.unpremultiplied}));
 }
@@ -236,6 +237,8 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const Cho
         recolor_by(recolor, request.depth.picture, colour, opened, tell);
         if (recolor.empty()) opened.header = to_linear(tell, colour, path, opened.header, opened.ldi);
         check_flat_picture(tell, opened);
+        if (opened.depth == DepthMeaning::disparity)
+            opened.flicker = flicker_.since_last(front_view(opened.ldi, opened.name));
         channels_left_out_ = keep_and_tell(opened.ldi, request.channels);
         if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);
         return opened;
@@ -243,7 +246,7 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const Cho
     last_ = &kept_.get({path, recolor, request.channels, request.depth, lens.focal_length_mm,
                         lens.sensor_width_mm, colour.config, colour.input_space},
                        read);
-    last_->camera = read_camera(last_->header);
+    if (last_->depth != DepthMeaning::disparity) last_->camera = read_camera(last_->header);
     return *last_;
 }
 

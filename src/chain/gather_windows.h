@@ -3,6 +3,7 @@
 
 #include "../base/kept.h"
 #include "../base/subpixels.h"
+#include "../deep/checks/flicker.h"
 #include "../deep/recolor.h"
 #include "../io/open_ldi.h"
 #include "../lens/lens_looks.h"
@@ -112,6 +113,7 @@ private:
     OpenedLdi *last_ = nullptr;
     bool read_now_ = false;
     std::vector<std::string> channels_left_out_;
+    Flicker flicker_;
 };
 
 } // namespace sparselens

@@ -82,6 +82,10 @@ constexpr std::array table{
         NoticeKind::missing_overscan, once,
         "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there; discs of lights "
         "outside the frame are missing, so render more overscan"},
+    Words{NoticeKind::flicker, warning,
+          "{file}: its depth flickers: where the picture stands still, half of the pixels change their blur "
+          "by {0:.1f} "
+          "pixels or more since the frame before"},
     Words{NoticeKind::on_cpu, note, "device: the CPU"},
     Words{NoticeKind::on_device, note, "device: {0}"},
     Words{NoticeKind::no_vulkan, note, "no device by Vulkan: {0}"},

@@ -49,6 +49,7 @@ enum class NoticeKind {
     round_aperture,   // method
     overscan,         // pixels needed, pixels rendered
     missing_overscan, // the same
+    flicker,          // pixels of blur
     // Devices.
     on_cpu,
     on_device,       // name

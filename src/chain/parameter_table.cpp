@@ -128,10 +128,26 @@ ParameterRows<PictureChoice> kind_parameters() {
 }
 
 ParameterRows<PictureChoice> depth_file_parameters() {
-    static const auto rows = all<PictureChoice>(
-        {{text("depth-file", "FILE.exr", "File with the depth of the picture (EXR, flat, of the same size)",
-               Form::file),
-          in(&PictureChoice::depth_file)}},
+    static const auto rows =
+        all<PictureChoice>({{text("depth-file", "FILE",
+                                  "File with the depth of the picture, of the same size: a flat EXR, or a "
+                                  "grey PNG, JPEG or TIFF, which is a "
+                                  "`disparity`",
+                                  Form::file),
+                             in(&PictureChoice::depth_file)}},
+                           "Lens", "", PythonCall::open_ldi);
+    return rows;
+}
+
+ParameterRows<DepthOptions> photograph_parameters() {
+    static const auto rows = all<DepthOptions>(
+        {{flag("disparity",
+               "The depth is a disparity, 0 to 1 or integers, white near, as programs estimate it from a "
+               "photograph (default if `depth_file` is no EXR)"),
+          [](const Parameter &, const std::string &, DepthOptions &options) {
+              options.meaning = DepthMeaning::disparity;
+              return true;
+          }}},
         "Lens", "", PythonCall::open_ldi);
     return rows;
 }
@@ -256,6 +272,12 @@ Rows<PictureRequest> gather_rows() {
         {keyed(text("focus-pixel", "X,Y", "Focus on the front surface in this pixel, in EXR coordinates",
                     Form::pixel, "X,Y in whole pixels (e.g. 320,180)")),
          in(&PictureRequest::focus_pixel)},
+        {keyed(on_page(number(
+             "blur", "PX",
+             "Blur of a photograph, whose depth is a `disparity`: the radius, in pixels, of the disc of "
+             "what is white in the depth if black is in focus",
+             at_least_0))),
+         in(&PictureRequest::blur)},
         {text("shutter-curve", "box|triangle|gaussian|FILE",
               "How the moments of a shutter count, whose LDIs IN names by %s. FILE: lines of a time, from 0 "
               "to 1, and a value (default: box)",

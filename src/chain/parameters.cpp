@@ -14,13 +14,12 @@ namespace sparselens {
 namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
-constexpr Pair exclusive[] = {{"lens-radius", "fstop"},
-                              {"focus-pixel", "focus-distance"},
-                              {"aperture", "blades"},
-                              {"aperture", "blade-curvature"},
-                              {"aperture", "blade-rotation"},
-                              {"display", "output-colorspace"},
-                              {"view-transform", "output-colorspace"}};
+constexpr Pair exclusive[] = {{"lens-radius", "fstop"},         {"focus-pixel", "focus-distance"},
+                              {"disparity", "depth"},           {"blur", "fstop"},
+                              {"blur", "lens-radius"},          {"blur", "focal-length"},
+                              {"blur", "sensor-width"},         {"aperture", "blades"},
+                              {"aperture", "blade-curvature"},  {"aperture", "blade-rotation"},
+                              {"display", "output-colorspace"}, {"view-transform", "output-colorspace"}};
 constexpr Pair needed[] = {{"holdout-defocused", "holdout"},
                            {"highlight-threshold", "highlight-gain"},
                            {"highlight-knee", "highlight-gain"}};
@@ -37,8 +36,8 @@ std::span<const Parameter *const> picture_parameters() {
             (add(parts), ...);
             return all;
         }(gather_parameters(), lens_parameters(), look_parameters(), depth_parameters(), choice_parameters(),
-          kind_parameters(), depth_file_parameters(), input_colour_parameters(), output_colour_parameters(),
-          window_parameters(), shown_parameters());
+          kind_parameters(), depth_file_parameters(), photograph_parameters(), input_colour_parameters(),
+          output_colour_parameters(), window_parameters(), shown_parameters());
     return rows;
 }
 

@@ -65,6 +65,7 @@ ParameterRows<DepthOptions> depth_parameters();
 ParameterRows<PictureChoice> choice_parameters();     // which picture of a file
 ParameterRows<PictureChoice> kind_parameters();       // what its channels hold
 ParameterRows<PictureChoice> depth_file_parameters(); // one row
+ParameterRows<DepthOptions> photograph_parameters();  // one row
 ParameterRows<ColourOptions> input_colour_parameters();
 ParameterRows<ColourOptions> output_colour_parameters();
 ParameterRows<WindowOptions> window_parameters();

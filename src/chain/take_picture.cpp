@@ -11,6 +11,7 @@
 #include "dof/gather_rows.h"
 #include "io/camera/camera_header.h"
 #include "io/exr/exr_header.h"
+#include "lens/photograph.h"
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 
@@ -34,6 +35,8 @@ Ldi holdout_of(const PictureRequest &request, const OpenedLdi &in, const OpenedL
 bool is_lens_method(const PictureRequest &request) {
     return request.picture.method == &gather_methods().front();
 }
+constexpr double flicker_px = 0.5; // a change of blur that is seen
+
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
 // Takes the picture of `in`. Its samples may be used up if they are `own`.
@@ -100,6 +103,8 @@ private:
             work_.tell({.kind = NoticeKind::focused,
                         .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
         out_.lens = picture_lens(request_, in_, out_.camera);
+        if (const double change = request_.blur.value_or(0) * in_.flicker; change > flicker_px)
+            work_.tell({NoticeKind::flicker, in_.name, {change}});
         if (sees_past_views(out_.camera, out_.lens))
             work_.tell({.kind = NoticeKind::wide_lens, .parameter = "fstop"});
     }
@@ -204,6 +209,21 @@ ChooseSamples choose_samples(const PictureRequest &request, bool keep, const Pic
     };
 }
 
+// Gives the camera of a photograph the lens that has the blur of the request.
+void set_blur(Camera &camera, const PictureRequest &request, const OpenedLdi &in) {
+    if (in.depth != DepthMeaning::disparity)
+        throw UsageError(
+            "`blur`: is for depths that are a disparity (`disparity`); for others, give the lens by "
+            "`fstop` or `lens_radius`");
+    if (!request.blur)
+        throw UsageError(in.name +
+                         ": is a photograph, which needs no lens: give the largest radius of its blur in "
+                         "pixels (`blur=40`)");
+    if (!camera.focus_distance && !request.focus_pixel)
+        throw UsageError(in.name + ": what is sharp is unknown: give a pixel of it (`focus_pixel=X,Y`)");
+    camera.lens_radius = radius_of_blur(*request.blur, resolve_focal_px(camera, in.ldi.windows));
+}
+
 } // namespace
 
 Image false_colours(Show show, const Ldi &ldi, const ThinLens &lens) {
@@ -229,6 +249,7 @@ void check_method(const PictureRequest &request,
 Camera picture_camera(const PictureRequest &request, const OpenedLdi &in,
                       const std::function<float(const Imath::V2i &)> &depth_of) {
     Camera camera = camera_with_options(request.lens, in.camera);
+    if (request.blur || in.depth == DepthMeaning::disparity) set_blur(camera, request, in);
     if (!request.focus_pixel) return camera;
     const int across = subpixels_of(request.windows, in).across;
     require_inside(*request.focus_pixel, in, across);

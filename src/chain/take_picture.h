@@ -53,6 +53,7 @@ enum class Show { picture, coc, focus, layers, tiles };
 // ignored.
 struct PictureRequest : LdiRequest {
     std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; empty: `lens` has it
+    std::optional<double> blur = {};            // of a photograph, in place of a lens (lens/photograph.h)
     GivenLooks looks = {};
     WindowOptions windows = {};
     PictureOptions picture = {}; // its holdout: as made by holdout_for(), if neither of the next two is set

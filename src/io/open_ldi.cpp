@@ -5,9 +5,11 @@
 #include "deep/checks/picture_checks.h"
 #include "deep/mixed_pixels.h"
 #include "deep/tidy.h"
+#include "io/display/shown_picture.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
 #include "io/open_view.h"
+#include "io/photograph.h"
 #include "view/depth.h"
 #include "view/flat_pixels.h"
 
@@ -42,15 +44,23 @@ OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions
     opened.header = std::move(file.header);
     opened.notes = std::move(file.notes);
     opened.warnings = std::move(file.warnings);
-    opened.camera = camera_with_options(
-        options.lens, opened_camera(opened.header, opened.name, options.camera, opened.ldi.windows));
+    const bool photographed = options.depth.meaning == DepthMeaning::disparity;
+    opened.camera =
+        camera_with_options(options.lens, photographed ? photograph_camera()
+                                                       : opened_camera(opened.header, opened.name,
+                                                                       options.camera, opened.ldi.windows));
     return opened;
 }
 
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
-    return ready_ldi(read_ldi(path, options.depth.picture), path, options);
+    const PictureChoice &choice = options.depth.picture;
+    if (!is_photograph(path, choice)) return ready_ldi(read_ldi(path, choice), path, options);
+    OpenOptions of_photograph = options;
+    if (has_shown_ending(choice.depth_file) && options.depth.meaning == DepthMeaning::planar)
+        of_photograph.depth.meaning = DepthMeaning::disparity; // such a file has no depths in scene units
+    return ready_ldi(read_photograph(path, choice), path, of_photograph);
 }
 
 namespace {
@@ -133,7 +143,8 @@ private:
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose) {
-    if (!choose || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path))
+    if (!choose || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path) ||
+        is_photograph(path, options.depth.picture))
         return open_ldi(path, options);
     RowsReader reader(path, options, choose);
     LdiFile file = read_ldi(path, options.depth.picture, std::ref(reader));
@@ -166,6 +177,8 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
                               : normalized_warning(options.depth, opened.ldi.z, opened.ldi.windows.grid());
     if (warning) opened.warnings.push_back(*warning);
     if (!deep) opened.unpremultiplied = seems_unpremultiplied(opened.ldi, options.depth.picture);
+    if (options.depth.meaning == DepthMeaning::disparity)
+        settle_disparities(opened.ldi.z, opened.name, opened.warnings);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {

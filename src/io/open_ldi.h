@@ -38,7 +38,8 @@ struct OpenedLdi : OpenedFile {
     bool reduced() const { return !std::holds_alternative<AllSamples>(held); }
 };
 
-// Opens any deep EXR, or a flat one with depth; `-` is standard input. Throws Error if the file cannot be read, or most
+// Opens any deep EXR, a flat one with depth, or a photograph with a depth file, which is a disparity if it is no EXR
+// (io/photograph.h); `-` is standard input. Throws Error if the file cannot be read, or most
 // of its depths are invalid (see sanitize()). Throws UsageError if its depth is the length of the ray and the focal
 // length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});

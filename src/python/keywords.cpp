@@ -201,6 +201,7 @@ PictureChoice picture_choice(Keywords &keywords) {
 DepthOptions depth_options(Keywords &keywords) {
     DepthOptions depth{.picture = picture_choice(keywords)};
     keywords.parameters(depth_parameters(), depth);
+    keywords.parameters(photograph_parameters(), depth);
     return depth;
 }
 

@@ -53,6 +53,7 @@ def DEPTH(
     # "normalized" 0 at near to 1 at far (near is the larger if white is near), "hyperbolic" the same, linear in 1 / z.
     # Depths beyond far (default: 1e10) are sky.
     near, far: Optional[float] = None,
+    disparity: bool = False,  # the depth is a disparity, white near, as programs estimate it from a photograph; instead of depth.
 ): ...
 def PICTURE(
     stereo_view: Optional[str] = None,  # the view of a stereo file, such as "right".
@@ -63,7 +64,8 @@ def PICTURE(
 def FILE(
     **DEPTH,
     depth_channel: Optional[str] = None,  # default: Z, depth.Z, *.Depth.Z or the like, in any case.
-    depth_file: Optional[_Path] = None,  # a flat EXR of the same size that holds the depth; the picture then needs no depth.
+    depth_file: Optional[_Path] = None,  # a flat EXR of the same size that holds the depth, or a grey PNG, JPEG or TIFF, which
+    # is a disparity; the picture then needs no depth.
     **PICTURE,
 ): ...
 def DEVICE(
@@ -319,6 +321,8 @@ def gather(
     layers: Optional[int] = 8,  # the number of layers kept apart in a pixel; for the method selective.
     focus_pixel: Optional[tuple[int, int]] = None,  # (x, y), focuses on the front surface in this pixel of the picture, instead
     # of focus_distance.
+    blur: Optional[float] = None,  # pixels, for a photograph, in place of a lens: the radius of the disc of what is white in the
+    # depth if black is in focus.
     holdout: Optional[Ldi] = None,  # an Ldi that hides what is behind it and is not shown itself; it stays sharp unless
     # holdout_defocused.
     holdout_defocused: bool = False,

@@ -1,6 +1,7 @@
 #include "python/verbs.h"
 
 #include "base/error.h"
+#include "chain/colours.h"
 #include "chain/make_ldi.h"
 #include "chain/match_lens.h"
 #include "chain/plan_views.h"
@@ -8,6 +9,7 @@
 #include "chain/take_picture.h"
 #include "deep/flatten.h"
 #include "io/camera/camera_header.h"
+#include "io/display/shown_picture.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
@@ -47,7 +49,12 @@ LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
     const std::string name = path_of(path, "path");
     const OpenOptions options = file_options(keywords);
     keywords.done();
-    auto ldi = job<OpenedLdi>(py::none(), [&](Progress &) { return open_ldi(name, options); });
+    auto ldi = job<OpenedLdi>(py::none(), [&](Progress &) {
+        OpenedLdi opened = open_ldi(name, options);
+        if (has_shown_ending(name))
+            opened.header = to_linear([](const Notice &) {}, {}, name, opened.header, opened.ldi);
+        return opened;
+    });
     warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
     return ldi;
 }

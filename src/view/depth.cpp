@@ -1,5 +1,6 @@
 #include "view/depth.h"
 
+#include "lens/photograph.h"
 #include "view/resolve_lens.h"
 #include "view/view_mapping.h"
 
@@ -22,6 +23,7 @@ double planar_depth(DepthMeaning meaning, double value, int x, int y, const Wind
                     const Imath::V2d &principal_point) {
     if (meaning == DepthMeaning::planar) return value;
     if (meaning == DepthMeaning::negative) return -value;
+    if (meaning == DepthMeaning::disparity) return depth_of_disparity(value);
     if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 is infinitely far too
     const Imath::V2d axis = in_pixels(principal_point, windows);
     const double right = x + 0.5 - axis.x;

@@ -380,3 +380,18 @@ def test_finish(clustered, names, tool, tmp_path):
         sparselens.finish(gathered, rays, denoised=rays[:1])
     with pytest.raises(TypeError, match="rays"):
         sparselens.finish(gathered, 3)
+
+
+def test_a_photograph_is_gathered_as_the_tool_does(views, tool, tmp_path):
+    photo, depth = tmp_path / "photo.png", tmp_path / "depth.png"
+    near = numpy.float32(views[0].z.min()) / views[0].z
+    sparselens.write(photo, sparselens.Picture(views[0].pixels[:, :, :3]))
+    sparselens.write(depth, sparselens.Picture(numpy.repeat(near[:, :, None], 3, axis=2)), view_transform="Raw")
+    ldi = sparselens.open_ldi(photo, depth_file=depth)
+    sparselens.write(tmp_path / "python.png", sparselens.gather(ldi, blur=5, focus_pixel=(48, 27)))
+    tool("dof-gather", photo, "--depth-file", depth, "--blur", 5, "--focus-pixel", "48,27", "-o", tmp_path / "tool.png")
+    assert (tmp_path / "python.png").read_bytes() == (tmp_path / "tool.png").read_bytes() != photo.read_bytes()
+    with pytest.raises(sparselens.UsageError, match="blur=40"):
+        sparselens.gather(ldi, focus_pixel=(48, 27))
+    with pytest.raises(sparselens.UsageError, match="fstop"):
+        sparselens.gather(ldi, blur=5, fstop=2, focus_pixel=(48, 27))

@@ -54,6 +54,7 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
     add_depth_options(app, options.depth);
     add_parameters(app, kind_parameters(), options.depth.picture);
     add_parameters(app, depth_file_parameters(), options.depth.picture);
+    add_parameters(app, photograph_parameters(), options.depth);
     add_parameters(app, input_colour_parameters(), options.colour);
     add_parameters(app, output_colour_parameters(), options.colour);
     add_parameters(app, window_parameters(), options.windows);

@@ -63,6 +63,9 @@ ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOpt
 // if all is known.
 Words lens_guess(const ShotFrame &frame, const Camera &camera);
 
+// The same for a photograph, whose blur is then a 60th of its width.
+Words blur_guess(const ShotFrame &frame, const PictureRequest &request);
+
 // The same in words for people; empty for no options.
 std::string guess_in_words(const Words &guess);
 

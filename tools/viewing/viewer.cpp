@@ -75,7 +75,8 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
     : options_(options), words_(picture_words(words)), frames_(frames), tool_(tool),
       shot_(commands_of(frames), tool) {
     const Reel::Held first = shot_.frame(options.picture);
-    guess_ = lens_guess(*first, first->camera(options.picture));
+    guess_ = first->in.depth == DepthMeaning::disparity ? blur_guess(*first, options.picture)
+                                                        : lens_guess(*first, first->camera(options.picture));
     if (!guess_.empty()) warn(tool, guess_in_words(guess_));
     words_.insert(words_.end(), guess_.begin(), guess_.end());
     const auto is_there = [](const Image &) {};
@@ -131,6 +132,7 @@ std::string Viewer::facts(const Asked &asked) {
         facts["frames"].push_back(frames_.number(i));
     if (!guess_.empty()) facts["guess"] = guess_in_words(guess_);
     if (camera.metres_per_unit) facts["metres_per_unit"] = *camera.metres_per_unit;
+    if (command.blur) facts["blur"] = *command.blur;
     if (camera.fstop) facts["fstop"] = json_number(*camera.fstop);
     if (camera.focus_distance) facts["focus"] = json_number(*camera.focus_distance);
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);

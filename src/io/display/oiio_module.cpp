@@ -1,5 +1,7 @@
 #include "io/display/oiio_module.h"
 
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <string>
@@ -35,19 +37,33 @@ const char *write(const OiioPicture &picture) {
     return why.c_str();
 }
 
+// Turns a plane of the file as its attribute Orientation says.
+void turn(float *plane, const OIIO::ImageSpec &spec, int orientation) {
+    OIIO::ImageBuf as_stored(OIIO::ImageSpec(spec.width, spec.height, 1, OIIO::TypeDesc::FLOAT), plane);
+    OIIO::ImageBuf copy = as_stored.copy(OIIO::TypeDesc::FLOAT); // reorient() would read what it writes
+    copy.set_orientation(orientation);
+    const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(copy);
+    turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, plane);
+}
+
 const char *read(const char *path, OiioSize &size, float *values) {
     thread_local std::string why;
     const auto file = OIIO::ImageInput::open(path);
     if (!file) return (why = OIIO::geterror()).c_str();
     const OIIO::ImageSpec &spec = file->spec();
-    if (!values) size = {spec.width, spec.height, spec.get_float_attribute("PixelAspectRatio", 1)};
-    if (spec.width != size.width || spec.height != size.height) return "it has changed";
+    const int turned = spec.get_int_attribute("Orientation", 1);
+    const bool on_side = turned > 4; // rows and columns change places
+    const int width = on_side ? spec.height : spec.width, height = on_side ? spec.width : spec.height;
+    const bool floats = spec.format.is_floating_point();
+    if (!values) size = {width, height, spec.get_float_attribute("PixelAspectRatio", 1), floats};
+    if (width != size.width || height != size.height) return "it has changed";
     const bool is_grey = spec.nchannels < 3;
     for (int k = 0; values && k < 3; ++k) {
         const int from = is_grey ? 0 : k;
         float *plane = values + std::ptrdiff_t(k) * size.width * size.height;
         if (!file->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT, plane))
             return (why = file->geterror()).c_str();
+        if (turned > 1) turn(plane, spec, turned);
     }
     return nullptr;
 }

@@ -23,6 +23,7 @@ struct OiioPicture {
 struct OiioSize {
     int width, height;
     float pixel_aspect;
+    bool floats; // whether its values are floating-point numbers
 };
 
 struct OiioModule {
@@ -32,7 +33,7 @@ struct OiioModule {
     Support (*support)(const char *extension);
     // Returns null, or a message that is valid until the thread calls again.
     const char *(*write)(const OiioPicture &picture);
-    // Reads R, G and B of a file of this size, plane after plane; its size if `values` is null.
+    // Reads R, G and B of a file of this size, plane after plane, turned as a camera says; its size if `values` is null.
     const char *(*read)(const char *path, OiioSize &size, float *values);
 };
 

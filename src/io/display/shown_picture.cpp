@@ -37,6 +37,8 @@ const OiioModule &oiio_module() {
     return module;
 }
 
+constexpr std::array usual{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".dpx", ".hdr", ".tga", ".webp"};
+
 // The extension without the dot, in lower case.
 std::string extension_of(const std::string &path) {
     const std::string extension = lower_case(std::filesystem::path(path).extension().string());
@@ -149,7 +151,13 @@ void write_shown_picture(const std::string &path, const Image &image) {
     write_text_file(path, shown_picture(path, extension_of(path), image));
 }
 
-Image read_shown_picture(const std::string &path) {
+bool has_shown_ending(const std::string &path) {
+    const std::string extension = extension_of(path);
+    return extension == "pfm" ||
+           std::ranges::any_of(usual, [&](const char *ending) { return ending + 1 == extension; });
+}
+
+Image read_shown_picture(const std::string &path, bool *floats) {
     OiioSize size{};
     const auto read = [&](float *to) {
         if (const char *failed = oiio_module().read(path.c_str(), size, to))
@@ -160,6 +168,7 @@ Image read_shown_picture(const std::string &path) {
     Image image(windows_of_size(size.width, size.height), {{"R"}, {"G"}, {"B"}});
     image.windows.pixel_aspect = size.pixel_aspect;
     read(image.values.data());
+    if (floats) *floats = size.floats;
     return image;
 }
 
@@ -172,8 +181,6 @@ bool is_pipe_or_device(const std::string &path) {
            (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
             !std::filesystem::is_directory(status));
 }
-
-constexpr std::array usual{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".dpx", ".hdr", ".tga", ".webp"};
 
 // The usual endings that the installed OpenImageIO writes.
 std::string endings() {

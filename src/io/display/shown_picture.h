@@ -35,8 +35,12 @@ ShownPixels shown_pixels(const std::string &name, const Image &image);
 // Writes the same as a file; its extension selects the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);
 
-// Reads such a file as R, G and B, as encoded there. Throws Error, beginning with `path`.
-Image read_shown_picture(const std::string &path);
+// Whether the extension is a usual one of such a format; OpenImageIO is not loaded.
+bool has_shown_ending(const std::string &path);
+
+// Reads such a file as R, G and B, as encoded there; `floats`: whether they are floating-point numbers. Throws Error,
+// beginning with `path`.
+Image read_shown_picture(const std::string &path, bool *floats = nullptr);
 
 // The names under which pictures may be written. The ending selects the format. A wrong ending is an error, reported
 // before any work is done.

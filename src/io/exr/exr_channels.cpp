@@ -346,6 +346,12 @@ void put_depth_of_file(FlatFile &picture, const std::string &path, const Picture
     const std::string &name = choice.depth_file;
     const bool stereo = !choice.stereo_view.empty() && !stereo_views(name).empty();
     const FlatFile file = read_flat_exr(name, {.stereo_view = stereo ? choice.stereo_view : std::string()});
+    put_depth_of_file(picture, path, choice, file);
+}
+
+void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice,
+                       const FlatFile &file) {
+    const std::string &name = choice.depth_file;
     const Windows &from = file.image.windows, &to = picture.image.windows;
     if (from.display != to.display || from.pixel_aspect != to.pixel_aspect)
         throw Error(

@@ -118,5 +118,8 @@ std::optional<int> depth_rank(std::string_view name);
 // otherwise the first of R, G and B. Outside its data window it is 0. Throws Error if the file has no depth, or differs
 // from the picture in display window or pixel aspect ratio.
 void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice);
+// The same with that file already read.
+void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice,
+                       const FlatFile &file);
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
 // The panel beside the picture: the facts about the lens, and the controls that set it.
-const aperture = () => state.facts.fstop === undefined ? 'lens-radius' : 'fstop';
+const aperture = () => state.facts.blur !== undefined ? 'blur' : state.facts.fstop === undefined ? 'lens-radius' : 'fstop';
 const focusNow = () => asNumber(state.settings['focus-distance'] ?? state.lens?.focus ?? state.facts.focus);
-const apertureNow = () => asNumber(state.settings[aperture()] ?? (aperture() === 'fstop' ? state.facts.fstop : state.lens?.radius));
+const apertureNow = () => asNumber(state.settings[aperture()] ?? (aperture() === 'lens-radius' ? state.lens?.radius : state.facts[aperture()]));
 
 // Sets the typed value if the server accepts it; else the old value stays.
 async function typed(option, text, field) {
@@ -63,7 +63,7 @@ function sayControls() {
     fill('focus', focusNow());
     fill('aperture', apertureNow());
     part('focus_name').textContent = 'focus, ' + unit();
-    part('aperture_name').textContent = aperture() === 'fstop' ? 'f-number' : 'radius, ' + unit();
+    part('aperture_name').textContent = { fstop: 'f-number', blur: 'blur, px' }[aperture()] ?? 'radius, ' + unit();
     showLooks();
     part('exposure').value = state.exposure;
     part('exposure_text').textContent = (state.exposure > 0 ? '+' : '') + state.exposure;

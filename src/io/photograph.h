@@ -1,0 +1,29 @@
+// Photographs, and their depth as estimated from one picture: PNG, JPEG, TIFF and the like, which OpenImageIO reads, for the
+// picture, for its depth, or for both. Not for use outside io/.
+#pragma once
+
+#include "../view/view.h"
+#include "exr/exr_deep.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+// Whether the picture or its depth file is no EXR.
+bool is_photograph(const std::string &path, const PictureChoice &choice);
+
+// Reads the picture and its depth, which stays as it is in the file, integers as 0 to 1. Colours of integers are encoded
+// for a display, which the header states; floating-point ones are linear. Throws Error or UsageError, naming the file, if
+// it cannot be read, there is no depth, it has another size, or it has colours.
+LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
+
+// Scales disparities of the picture to 0 to 1 unless they lie there, and says so in `warnings`; so it does if white
+// seems to be far. Throws Error, naming the picture, if all are the same.
+void settle_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings);
+
+// In place of the unknown one; only tilts and the like depend on it.
+Camera photograph_camera();
+
+} // namespace sparselens

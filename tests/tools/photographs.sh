@@ -1,0 +1,104 @@
+#!/bin/bash
+# Photographs: pictures and depths of PNG, JPEG and TIFF, as estimators leave them, gathered like the same scene as EXR
+# with exact depth; what is wrong with them gets one line; video, whose depth may flicker.
+. "$(dirname "$0")/check.sh"
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+unset OCIO
+psnr() { oiiotool --fail 1 "$1" "$2" --diff | sed -n 's/ *Peak SNR = //p'; }
+within() { awk "BEGIN { exit !($1 > $2 - $3) }" || fail "$4: $1 dB, not $2"; }
+silent() { [ ! -s stderr ] || fail "$*: $(cat stderr)"; }
+
+# Three traced scenes, with their nearest and farthest depth. The photograph is a JPEG. Its depth is a disparity of 8 or 16
+# bits, its edges soft over three pixels, with noise of one part in 250. 28.8 pixels (R F of 480 pixels) at 320 are 19.2.
+size=320x180 least=0.3
+while read -r scene near far; do
+    mkdir "$scene"
+    exits 0 "$bin/dof-trace" "$scene" --size $size --views 0 --spp 64 --reference 128 -o "$scene"
+    blur=$(awk "BEGIN { print 19.2 * (1 / $near - 1 / $far) }")
+    focus=$(awk "BEGIN { print 1 / (1 + (1 / 5 - 1 / $far) / (1 / $near - 1 / $far)) }")
+    oiiotool "$scene/reference.exr" --ch R,G,B --colorconvert linear sRGB -d uint8 -o "$scene/truth.png"
+    oiiotool "$scene/center.exr" --ch R,G,B --colorconvert linear sRGB -d uint8 --compression jpeg:95 -o "$scene/photo.jpg"
+    oiiotool --pattern constant:color=1 $size 1 "$scene/center.exr" --ch Z --div --subc "$(awk "BEGIN { print 1 / $far }")" \
+        --mulc "$(awk "BEGIN { print 1 / (1 / $near - 1 / $far) }")" --clamp:min=0:max=1 --chnames Y -d float -o "$scene/disparity.exr"
+    for bits in 8 16; do
+        oiiotool "$scene/disparity.exr" --blur:kernel=binomial 3x3 --noise:type=gaussian:stddev=0.004:seed=3 \
+            --clamp:min=0:max=1 -d uint$bits -o "$scene/depth$bits.png"
+        oiiotool "$scene/disparity.exr" -d uint$bits -o "$scene/exact$bits.png"
+        oiiotool --pattern constant:color=1 $size 1 -i:type=float "$scene/exact$bits.png" --addc 1 --div --chnames Z -o "$scene/z.exr"
+        oiiotool -i:type=float "$scene/photo.jpg" -d float --colorconvert sRGB linear "$scene/z.exr" --chappend --chnames R,G,B,Z -o "$scene/exact.exr"
+        exits 0 "$bin/dof-gather" "$scene/exact.exr" -o "$scene/exact.png" --focal-length 36 --sensor-width 36 --depth z \
+            --lens-radius "$(awk "BEGIN { print $blur / 320 }")" --focus-distance "$focus"
+        exits 0 "$bin/dof-gather" "$scene/photo.jpg" --depth-file "$scene/depth$bits.png" --disparity --blur "$blur" \
+            --focus-distance "$focus" -o "$scene/out$bits.png"
+        silent "$scene, $bits bits"
+        within "$(psnr "$scene/out$bits.png" "$scene/truth.png")" "$(psnr "$scene/exact.png" "$scene/truth.png")" $least "$scene, $bits bits"
+    done
+    [ "$(psnr "$scene/photo.jpg" "$scene/truth.png" | cut -d. -f1)" -lt 34 ] || fail "$scene: the photograph is as good"
+done <<'END'
+plate 3.15 18
+planes 2.5 24
+mirror 2.77 18
+END
+
+# Colours of integers are decoded, floating-point ones are linear; depths that do not lie from 0 to 1 are scaled. So the same
+# picture comes from any of these files.
+cd plate
+photo=("$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 6 --focus-pixel 160,120)
+exits 0 "${photo[@]}" -o out.exr
+oiiotool -i:type=float photo.jpg -d float --colorconvert sRGB linear -o linear.tif
+oiiotool linear.tif -o linear.exr
+oiiotool -i:type=float exact16.png --mulc 3 --subc 1 --chnames Y -d float -o depth.exr # scaled to 0 to 1 by its own range
+for words in "linear.tif --depth-file exact16.png" "linear.exr --depth-file exact16.png" "linear.exr --depth-file depth.exr --disparity"; do
+    # shellcheck disable=SC2086
+    exits 0 "$bin/dof-gather" $words --blur 6 --focus-pixel 160,120 -o same.exr
+    [[ "$words" = *depth.exr* ]] || silent "$words"
+    within "$(psnr same.exr out.exr)" 55 0 "$words" # edges are found in the colours of the file
+done
+grep -q 'its depth goes from -1 to .*, and is scaled to 0 to 1' stderr || fail "depth.exr is scaled in silence: $(cat stderr)"
+picture differ out.exr linear.exr R,G,B 0.05 || fail "nothing is blurred"
+exits 0 "$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 0 --focus-pixel 160,120 -o sharp.png
+oiiotool --fail 0.005 photo.jpg sharp.png --diff >stdout || fail "sharp colours do not come back: $(cat stdout)"
+# A camera turned on its side says so.
+oiiotool photo.jpg --rotate270 --orientation 6 -o turned.tif
+exits 0 "$bin/dof-gather" turned.tif --depth-file exact16.png --blur 6 --focus-pixel 160,120 -o turned.exr
+picture same turned.exr out.exr R,G,B 1e-3 || fail "turned.tif: another picture"
+
+# One line for each mistake.
+oiiotool depth8.png --resize 160x90 -o small.png
+oiiotool depth8.png --mulc 0 -o even.png
+oiiotool depth8.png --invert -o inverted.png
+wrong() { fails_saying "$1" "$2" "$bin/dof-gather" photo.jpg -o x.png "${@:3}"; }
+sharp=(--focus-pixel 160,120)
+wrong 1 'small.png: is 160x90 pixels large, and photo.jpg is 320x180: .*--resize 320x180' --depth-file small.png --blur 6 "${sharp[@]}"
+wrong 1 'photo.jpg: has colours, and depth must be grey' --depth-file photo.jpg --blur 6 "${sharp[@]}"
+wrong 1 'its depth is the same everywhere' --depth-file even.png --blur 6 "${sharp[@]}"
+wrong 1 'none.png: cannot read' --depth-file none.png --blur 6 "${sharp[@]}"
+wrong 2 'photo.jpg: is a picture without depth: give its depth by --depth-file' --blur 6 "${sharp[@]}"
+wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png "${sharp[@]}"
+wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png --fstop 2 "${sharp[@]}"
+wrong 2 'what is sharp is unknown: .*--focus-pixel' --depth-file depth8.png --blur 6
+for lens in --fstop --lens-radius --focal-length --sensor-width; do
+    wrong 2 "--blur excludes $lens|$lens excludes --blur" --depth-file depth8.png --blur 6 "$lens" 2 "${sharp[@]}"
+done
+fails_saying 2 '--blur: is for depths that are a disparity' "$bin/dof-gather" center.exr --blur 6 -o x.png
+exits 0 "$bin/dof-gather" photo.jpg -o x.png --depth-file inverted.png --blur 6 "${sharp[@]}"
+grep -q 'its depth is darker below than above.*--invert' stderr || fail "inverted: $(cat stderr)"
+
+# Video: a depth that is estimated anew for each frame flickers, and the warning says by how many pixels of blur.
+for frame in 1 2 3; do cp photo.jpg shot.000$frame.jpg && cp depth16.png d.000$frame.png; done
+oiiotool depth16.png --mulc 0.8 --addc 0.1 -d uint16 -o d.0003.png
+exits 0 "$bin/dof-gather" shot.####.jpg --depth-file d.####.png --frames 1-3 --blur 1:6,3:20 "${sharp[@]}" -o v.####.png
+[ "$(grep -c 'flickers: .* by [0-9.]* pixels or more' stderr)" = 1 ] && grep -q 'shot.0003.jpg: its depth flickers' stderr || fail "flicker: $(cat stderr)"
+
+# dof-view guesses blur and focus unless they are given, and its page sets the blur.
+cd ..
+export PYTHONDONTWRITEBYTECODE=1
+blurs() { # blurs BLUR COMMAND...: the blur that the page begins with, and the largest CoC, which is what it sets.
+    exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from served import served
+with served(*sys.argv[3:]) as server:
+    cocs = [server.picture(settings={"blur": blur})[0]["lens"]["largest_coc"] for blur in ("4", "8")]
+    assert server.said("/facts")["blur"] == float(sys.argv[2]) and abs(cocs[1] / cocs[0] - 2) < 0.01, cocs' \
+        "$source_dir/tests/viewing" "$@" || fail "dof-view: $(cat stderr)"
+}
+blurs 6 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png
+blurs 5 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png --disparity --blur 5 --focus-pixel 160,120 || fail "--blur"
