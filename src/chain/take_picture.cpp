@@ -35,8 +35,6 @@ Ldi holdout_of(const PictureRequest &request, const OpenedLdi &in, const OpenedL
 bool is_lens_method(const PictureRequest &request) {
     return request.picture.method == &gather_methods().front();
 }
-constexpr double flicker_px = 0.5; // a change of blur that is seen
-
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
 // Takes the picture of `in`. Its samples may be used up if they are `own`.
@@ -103,7 +101,7 @@ private:
             work_.tell({.kind = NoticeKind::focused,
                         .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
         out_.lens = picture_lens(request_, in_, out_.camera);
-        if (const double change = request_.blur.value_or(0) * in_.flicker; change > flicker_px)
+        if (const double change = request_.blur.value_or(0) * in_.flicker; change > 0.5) // pixels: it is seen
             work_.tell({NoticeKind::flicker, in_.name, {change}});
         if (sees_past_views(out_.camera, out_.lens))
             work_.tell({.kind = NoticeKind::wide_lens, .parameter = "fstop"});

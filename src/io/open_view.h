@@ -70,9 +70,8 @@ struct OpenedFile {
     bool depth_filtered = false;  // see SettledEdges
     std::size_t speckles = 0;     // depths of speckles replaced (view/flat_pixels.h)
     bool unpremultiplied = false; // whether its colours seem to be so
-    // How much the disparity of a photograph differs from that of the frame before it, where the picture stands still
-    // (deep/checks/flicker.h); 0 if that is unknown.
-    double flicker = 0;
+    double flicker =
+        0; // of a photograph, since the frame before (deep/checks/flicker.h); 0: none, or unknown
 };
 
 struct OpenedView : OpenedFile {

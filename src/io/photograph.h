@@ -1,5 +1,4 @@
-// Photographs, and their depth as estimated from one picture: PNG, JPEG, TIFF and the like, which OpenImageIO reads, for the
-// picture, for its depth, or for both. Not for use outside io/.
+// Photographs: PNG, JPEG, TIFF and the like, for the picture, for its estimated depth, or for both.
 #pragma once
 
 #include "../view/view.h"

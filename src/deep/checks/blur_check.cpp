@@ -76,8 +76,9 @@ struct Variation {
     double near = 0, far = 0;
 };
 
-// Adds the lines that begin at `line` and `beside` it, where everything that they show is out of focus.
-void add_variation(const FlatPixels &picture, const std::vector<float> &coc, const PictureLine &line,
+// Adds the lines that begin at `line` and `beside` it, where all that they show counts(pixel).
+template <typename Counts>
+void add_variation(const FlatPixels &picture, const Counts &counts, const PictureLine &line,
                    std::size_t beside, Variation &sum) {
     const auto shown = [&](std::size_t i) { // so that lights count no more than surfaces
         const Imath::V3d v = picture.colour(i);
@@ -86,22 +87,23 @@ void add_variation(const FlatPixels &picture, const std::vector<float> &coc, con
     const auto product = [&](std::size_t a, std::size_t b) {
         return (shown(line[b]) - shown(line[a])).dot(shown(line[b] + beside) - shown(line[a] + beside));
     };
-    const auto out_of_focus = [&](std::size_t i) { return std::abs(coc[i]) >= float(least_coc); };
-    std::size_t run = 0; // pixels out of focus in succession
+    std::size_t run = 0; // pixels that count in succession
     for (std::size_t i = 0; i < line.length; ++i) {
-        run = out_of_focus(line[i]) && out_of_focus(line[i] + beside) ? run + 1 : 0;
+        run = counts(line[i]) && counts(line[i] + beside) ? run + 1 : 0;
         if (run <= far_apart) continue;
         sum.near += product(i - 1, i);
         sum.far += product(i - far_apart, i);
     }
 }
 
-double fineness_of(const FlatPixels &picture, const std::vector<float> &coc) {
+template <typename Counts>
+double fineness_of(const FlatPixels &picture, const Counts &counts) {
     const auto width = std::size_t(picture.grid.width()), height = std::size_t(picture.grid.height());
     Variation sum;
     visit_lines(picture.grid, [&](const PictureLine &line) {
         const std::size_t beside = line.step == 1 ? width : 1;
-        if (line[line.length - 1] + beside < width * height) add_variation(picture, coc, line, beside, sum);
+        if (line[line.length - 1] + beside < width * height)
+            add_variation(picture, counts, line, beside, sum);
     });
     return sum.far > 0 ? sum.near / sum.far : 1;
 }
@@ -120,11 +122,14 @@ EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens) {
             if (const auto steepest = steepest_of({pixels, coc, line, i})) found.push_back(*steepest);
     });
     if (found.empty()) return {};
-    return {found.size(), median(found), fineness_of(pixels, coc)};
+    const auto in_focus = [&](std::size_t i) { return std::abs(coc[i]) < 1; };
+    const auto out_of_focus = [&](std::size_t i) { return std::abs(coc[i]) >= float(least_coc); };
+    return {found.size(), median(found), fineness_of(pixels, out_of_focus), fineness_of(pixels, in_focus)};
 }
 
 bool looks_defocused(const EdgeSharpness &sharpness) {
-    return sharpness.edges >= enough && sharpness.steepest < defocused && sharpness.fine < sharp_step;
+    return sharpness.edges >= enough && sharpness.steepest < defocused && sharpness.fine < sharp_step &&
+           sharpness.fine_in_focus > 1.2 * sharpness.fine;
 }
 
 } // namespace sparselens

@@ -1,5 +1,4 @@
-// How much the depth of still surfaces changes from one frame of a photographed sequence to the next, as it does if each
-// frame's depth is estimated by itself.
+// How much the depth of still surfaces changes from frame to frame, as it does if it is estimated for each by itself.
 #pragma once
 
 #include "../../view/view.h"

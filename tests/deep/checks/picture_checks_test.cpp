@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,27 @@ TEST(BlurCheck, WhatIsFineOutOfFocusIsNoBlur) {
     EXPECT_NEAR(sharpness.steepest, 3.0 / 12, 0.01);
     EXPECT_GT(sharpness.fine, 0.2);
     EXPECT_FALSE(looks_defocused(sharpness));
+}
+
+// The wall lies in focus, and its texture is as smooth as the edge: all of the picture was filtered.
+TEST(BlurCheck, WhatIsAsSoftInFocusIsNoBlur) {
+    const ThinLens on_the_wall{.radius = 0.4, .focal_px = 60, .focus = 20}; // a CoC of -4.8 on the card
+    const auto card_before = [](double period) {                            // of the wall's texture
+        View view = card_of(12);
+        const Windows &w = view.image.windows;
+        for (int y = 0; y < 100; ++y)
+            for (int x = 80; x < 120; ++x)
+                for (std::size_t k = 0; k < 3; ++k)
+                    view.image.at(k, w.data.min.x + x, w.data.min.y + y) *=
+                        float(1 + 0.3 * std::sin(2 * std::numbers::pi * x / period));
+        return view;
+    };
+    const EdgeSharpness sharp = sharpness_of_edges(card_before(6), on_the_wall),
+                        soft = sharpness_of_edges(card_before(60), on_the_wall);
+    EXPECT_GT(sharp.fine_in_focus, 0.2);
+    EXPECT_TRUE(looks_defocused(sharp));
+    EXPECT_LT(soft.fine_in_focus, 1.2 * soft.fine);
+    EXPECT_FALSE(looks_defocused(soft));
 }
 
 TEST(BlurCheck, EdgesInFocusMayBeAnything) {
