@@ -239,24 +239,25 @@ NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> secon
                         std::span<const half> gathered, const Grid &grid) {
     const Values a = mapped(first), b = mapped(second), g = mapped(gathered);
     const auto width = std::size_t(grid.width());
-    std::size_t rough = 0, equal = 0, excess = 0, equal_excess = 0;
+    std::size_t told = 0, equal = 0, excess = 0, equal_excess = 0;
     for (std::size_t i = 1; i + 1 < a.size(); ++i) {
+        if (a[i] != a[i - 1] && std::isfinite(a[i] + b[i])) {
+            ++told;
+            equal += a[i] == b[i];
+        }
         const float bent = bend(a, i);
         const bool inside = i % width > 0 && (i + 1) % width > 0;
-        if (!inside || !(a[i] > a[i - 1] && a[i] > a[i + 1] && bent > FinishTuning::rough * std::abs(a[i])))
+        if (!inside || !(a[i] > a[i - 1] && a[i] > a[i + 1] && bent > FinishTuning::rough * std::abs(a[i]) &&
+                         bent > 2 * std::abs(bend(g, i))))
             continue;
-        const bool is_equal = std::abs(a[i] - b[i]) <= FinishTuning::same_value * std::abs(a[i]);
-        ++rough;
-        equal += is_equal;
-        if (!(bent > 2 * std::abs(bend(g, i)))) continue;
         ++excess;
-        equal_excess += is_equal;
+        equal_excess += a[i] == b[i];
     }
     const auto share = [](std::size_t part, std::size_t all) {
         return all > 0 ? double(part) / double(all) : 0;
     };
     NoiseOfTwo found{
-        share(equal, rough), share(equal_excess, excess), share(excess, a.size()), agreement(a, b, grid), {}};
+        share(equal, told), share(equal_excess, excess), share(excess, a.size()), agreement(a, b, grid), {}};
     const double of_first = noise_of_first(a, b, g, grid);
     found.of_each = {of_first, 1 - of_first};
     return found;

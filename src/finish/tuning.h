@@ -41,12 +41,10 @@ struct FinishTuning {
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
-    // How the noise of two renders is compared (lens_check.h). Smaller relative differences come from other compressions or
-    // GPUs; rough pixels have a second difference along the row of at least this share of their value.
-    static constexpr float same_value = 1.0f / 512, rough = 1.0f / 64;
-    // Two renders have the same noise if this share of all rough pixels is the same, or this share of those that are
-    // smoother in the gathered picture, if these are that many of the picture. Good renders of 24 sets: .05 at most; half of
-    // a render in another one: .22 to .5.
+    // Two renders have the same noise if this share of all pixels that light varies in is the same, or this share of those
+    // whose second difference along the row is at least this part of their value and twice that of the gathered picture, if
+    // these are that many of the picture. Good renders of 24 sets: .05 at most; half of a render in another one: .22 to .5.
+    static constexpr float rough = 1.0f / 64;
     static constexpr double same_noise = 0.9, same_excess = 0.2, least_excess = 0.02;
     // Noise is alike if so many more directions than by chance agree at this distance, in pixels, which no filter of pixels
     // reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised renders: .01 to .2, but for 140 rays,

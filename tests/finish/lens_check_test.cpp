@@ -105,7 +105,8 @@ NoiseOfTwo noise(const Colours &first, const Colours &second, const Colours &gat
 bool smooth(const NoiseOfTwo &found) { return found.alike > FinishTuning::noise_alike; }
 
 TEST(NoiseOfTwo, GoodRendersHaveNoiseBySamples) {
-    for (const auto &samples : {std::array{1.0, 1.0}, {16, 16}, {64, 16}, {16, 1024}, {1024, 1024}})
+    for (const auto &samples :
+         {std::array{1.0, 1.0}, {16, 16}, {64, 16}, {16, 1024}, {1024, 1024}, {65536, 65536}})
         for (const int blur : {0, 1, 8}) {
             const Colours gathered = blurred(truth, grid, blur);
             const NoiseOfTwo found =
