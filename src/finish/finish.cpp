@@ -49,12 +49,20 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
     };
     progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
     for (const Halves &given : layer.given) offer(given);
+    // Where the gathered picture is wrong nearly everywhere, single classes prove too little: all cells together prove that
+    // the picture is not worse than one that is given, before and after the other candidates.
+    const auto offer_given = [&] {
+        for (const Halves &given : layer.given)
+            blend_in(pictures, given, evidence, finished.kept, Among::whole_picture);
+    };
+    offer_given();
     const Halves &rays = layer.averaged[0].empty() ? layer.rays : layer.averaged;
     const Values weights = tone_weights(layer.gathered);
     for (const FinishTuning::Window &window : FinishTuning::regression_windows)
         offer(regressed(layer, rays, weights, window));
     offer(rays);
     offer(means_of_similar(rays, pictures[2], layer.grid));
+    offer_given();
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
     keep_agreed(layer, finished);

@@ -83,7 +83,7 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
 
 // The share of each picture's change that is believed, for each cell.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
-                              const std::array<double, 2> &samples) {
+                              const std::array<double, 2> &samples, Among among) {
     const Grid &grid = cells.grid();
     Measures measures{energy_ratios(evidence, evidence.noise, grid, samples),
                       confirmations(evidence, grid, samples)};
@@ -101,8 +101,8 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
     for (std::size_t k = 0; k < 3; ++k)
         for_cells(grid, [&](std::size_t i) {
             float &ratio = measures.energy_ratio[k][i], &confirmed = measures.confirmed[k][i];
-            ratio = by_energy.place_of(ratio);
-            confirmed = by_confirmation.place_of(confirmed);
+            ratio = among == Among::classes ? by_energy.place_of(ratio) : 0;
+            confirmed = among == Among::classes ? by_confirmation.place_of(confirmed) : 0;
         });
 
     const Tiles blocks(grid.box(), FinishTuning::block_px / FinishTuning::trust_cell);
@@ -159,10 +159,11 @@ FOR_PROCESSORS void mean_of(const float *__restrict first, const float *__restri
 
 } // namespace
 
-void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &evidence, Values &kept) {
+void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &evidence, Values &kept,
+              Among among) {
     const Cells cells(evidence.grid, FinishTuning::trust_cell);
     const std::array<Values, 3> shares =
-        trusted(evidence_of(pictures, candidate, evidence, cells), cells, evidence.samples);
+        trusted(evidence_of(pictures, candidate, evidence, cells), cells, evidence.samples, among);
     const auto width = std::size_t(evidence.grid.width());
     const auto of_first = float(evidence.samples[0] / (evidence.samples[0] + evidence.samples[1]));
     parallel_for(std::size_t(evidence.grid.height()), [&](std::size_t y) {

@@ -53,8 +53,12 @@ inline float of_both(const std::array<double, 2> &samples, float first, float se
     return float((samples[0] * double(first) + samples[1] * double(second)) / (samples[0] + samples[1]));
 }
 
+// What decides how far a candidate is believed: the cells of each class, or all cells together.
+enum class Among { classes, whole_picture };
+
 // Blends a candidate into `pictures` as far as it is believed. `kept`, for each pixel, is multiplied by the share of
 // the picture that stays.
-void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &evidence, Values &kept);
+void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &evidence, Values &kept,
+              Among among = Among::classes);
 
 } // namespace sparselens

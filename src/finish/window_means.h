@@ -116,7 +116,8 @@ struct ClassSums {
 };
 
 // The share of a candidate that is believed in each class of cells, from the evidence of both renders in all its cells:
-// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961).
+// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961), and
+// by that of all classes together: each may believe a few bright events by chance, and all of them then do harm.
 Shares shares_of(std::vector<ClassSums> blocks);
 
 // Interpolates linearly between the middles of classes.

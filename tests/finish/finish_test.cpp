@@ -75,6 +75,18 @@ TEST(Finish, WhatOthersMadeIsTakenWhereItIsNearer) {
     EXPECT_GT(decibels_of(finished(layer).picture, truth), without + 3);
 }
 
+// The gathered picture is wrong nearly everywhere; what a denoiser leaves of each render is better.
+TEST(Finish, IsNotWorseThanWhatIsGiven) {
+    for (const auto &samples : {std::array<double, 2>{2, 2}, {8, 2}, {8, 8}}) {
+        LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 4), samples);
+        const Halves denoised{rays_of(truth, 16 * samples[0], 5), rays_of(truth, 16 * samples[1], 6)};
+        layer.given.push_back(denoised);
+        EXPECT_GT(decibels_of(finished(layer).picture, truth),
+                  decibels_of(mean_of(denoised, samples), truth) - 0.1)
+            << samples[0] << ' ' << samples[1];
+    }
+}
+
 // The frames around may show something else: a frame's own rays test the candidates made of their means.
 TEST(Finish, WrongMeansWithFramesAroundCostLittle) {
     LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 3), {40, 40});
