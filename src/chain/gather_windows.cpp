@@ -212,8 +212,8 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
     return left_out;
 }
 
-// Checks flat renders only, because deep pictures are made by programs that write them correctly. A photograph has soft
-// edges and an estimated depth, and is none.
+// Checks flat renders only. Deep pictures are made by programs that write them correctly, and photographs have soft
+// edges and an estimated depth.
 void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
     if (in.deep || in.depth == DepthMeaning::disparity) return;
     tell_warnings(tell, picture_warnings(front_view(in.ldi, in.name),

@@ -143,7 +143,7 @@ ParameterRows<DepthOptions> photograph_parameters() {
     static const auto rows = all<DepthOptions>(
         {{flag("disparity",
                "The depth is a disparity, 0 to 1 or integers, white near, as programs estimate it from a "
-               "photograph (default if `depth_file` is no EXR)"),
+               "photograph (default if `depth_file` is not an EXR file)"),
           [](const Parameter &, const std::string &, DepthOptions &options) {
               options.meaning = DepthMeaning::disparity;
               return true;
@@ -274,8 +274,8 @@ Rows<PictureRequest> gather_rows() {
          in(&PictureRequest::focus_pixel)},
         {keyed(on_page(number(
              "blur", "PX",
-             "Blur of a photograph, whose depth is a `disparity`: the radius, in pixels, of the disc of "
-             "what is white in the depth if black is in focus",
+             "Strongest blur of a photograph, whose depth is a `disparity`: the radius, in pixels, of the "
+             "disc that a white pixel of the depth becomes when black is in focus",
              at_least_0))),
          in(&PictureRequest::blur)},
         {text("shutter-curve", "box|triangle|gaussian|FILE",

@@ -49,8 +49,8 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
     };
     progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
     for (const Halves &given : layer.given) offer(given);
-    // Where the gathered picture is wrong nearly everywhere, single classes prove too little: all cells together prove that
-    // the picture is not worse than one that is given, before and after the other candidates.
+    // Where the gathered picture is wrong nearly everywhere, single classes prove too little: all cells together prove
+    // that the picture is not worse than one that is given, before and after the other candidates.
     const auto offer_given = [&] {
         for (const Halves &given : layer.given)
             blend_in(pictures, given, evidence, finished.kept, Among::whole_picture);

@@ -56,9 +56,8 @@ public:
 
     // Throws Error, naming the file, if its display window differs from that of the gathered picture.
     void add(const Render &render);
-    // The same for a render with noise. Also throws Error if it has the noise of an earlier one: it is the same render, or
-    // one with the same seed, so the difference of the halves would not tell the noise. Other noise than samples make gives
-    // a doubt.
+    // The same for a noisy render. Also throws Error if it has the noise of an earlier one: it is the same render, or has
+    // the same seed, so the halves would not tell the noise. Other noise than samples make gives a doubt.
     void add_noisy(const Render &render);
     const std::vector<std::string> &doubts() const { return doubts_; } // for warnings
     bool complete() const;                                             // whether both halves have a render

@@ -156,8 +156,8 @@ float bend(std::span<const float> plane, std::size_t i) {
     return plane[i] - (plane[i - 1] + plane[i + 1]) / 2;
 }
 
-// Pairs of pixels a few pixels apart: how many there are, how many of their differences have the same direction, and how many
-// would by chance.
+// Pairs of pixels a few pixels apart: how many there are, how many of their differences have the same direction, and
+// how many would by chance.
 struct Directions {
     std::size_t same = 0, all = 0;
     double expected = 0;

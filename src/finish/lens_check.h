@@ -35,8 +35,9 @@ LensMistakes check_lens(const LayerToFinish &layer);
 // What one channel of two renders and of the gathered picture tells about their noise. Values that are not finite are
 // left out.
 //
-// The renders differ by noise alone. Noise is independent from pixel to pixel, so in a block, as many pixels as by chance
-// differ in the same direction as others nearby. If more do, the renders are denoised, or not of one picture. Of the square of their difference, its product with what each render has beyond the gathered picture is that render's own.
+// The renders differ by noise alone, which is independent from pixel to pixel: in a block, as many pixels as by chance
+// differ in the same direction as others nearby. If more do, the renders are denoised, or not of one picture. Each
+// render's share of the squared difference is the difference times what the render has beyond the gathered picture.
 struct NoiseOfTwo {
     double equal = 0;                        // the share of rough pixels that are the same
     double equal_excess = 0;                 // the same for those that are smoother in the gathered picture,

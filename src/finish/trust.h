@@ -7,9 +7,9 @@
 //   - the energy of B - A around it, over the energy of B's noise as shown by the two renders, and
 //   - how clearly the renders confirm B - A in a ring around it, in standard deviations. The ring leaves out the
 //     cell itself.
-// The picture of both renders takes a share of its own, for the noise that both together leave: of 64 and 16 samples, the
-// render of 16 makes most of the noise that tests find. Five views with 64 + 16 and with 256 + 64 rays, without and with this:
-// hair 39.8 to 40.1 and 41.6 to 42.2 dB, lamps outside the frame 40.5 to 41.1 and 44.2 to 45.2.
+// The picture of both renders takes a share of its own, for the noise that both together leave: of 64 and 16 samples,
+// the render of 16 makes most of the noise that tests find. Five views with 64 + 16 and with 256 + 64 rays, without and
+// with this: hair 39.8 to 40.1 and 41.6 to 42.2 dB, lamps outside the frame 40.5 to 41.1 and 44.2 to 45.2.
 #pragma once
 
 #include "finish/window_means.h"

@@ -38,26 +38,27 @@ struct FinishTuning {
     static constexpr double noise_costs = 2;
     // Classes of pixels for each of the two measures of trust.
     static constexpr int classes = 12;
-    // A candidate is not believed if it gains less over the whole picture than this many standard deviations of the gain.
-    // lamps and reliefs with lamps behind, 80 rays: 0, 1 and 2 lose .19, .13, .01 and .20, .17, .10 dB of the gathered picture;
-    // fence and grass have 46.9, 46.9, 46.8 and 45.0, 45.0, 45.0 dB.
+    // A candidate is not believed if it gains less over the whole picture than this many standard deviations of the
+    // gain. With 80 rays, 0, 1 and 2 lose .19, .13, .01 dB of the gathered picture on lamps, and .20, .17, .10 dB on
+    // reliefs before lamps; fence has 46.9, 46.9, 46.8 and grass 45.0 dB.
     static constexpr double proof_deviations = 2;
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
-    // Two renders have the same noise if this share of all pixels that light varies in is the same, or this share of those
-    // whose second difference along the row is at least this part of their value and twice that of the gathered picture, if
-    // these are that many of the picture. Good renders of 24 sets: .05 at most; half of a render in another one: .22 to .5.
+    // Two renders have the same noise if this share of the pixels in which light varies is the same, or this share of
+    // those whose second difference along the row is at least `rough` of their value and twice that of the gathered
+    // picture, if they are that much of it. Good renders: .05 at most; with half of another render: .22 to .5.
     static constexpr float rough = 1.0f / 64;
     static constexpr double same_noise = 0.9, same_excess = 0.2, least_excess = 0.02;
-    // Noise is alike if so many more directions than by chance agree at this distance, in pixels, which no filter of pixels
-    // reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised renders: .01 to .2, but for 140 rays,
-    // which a denoiser leaves as they are.
+    // Noise is alike if so many more directions than by chance agree at this distance, in pixels, which no filter of
+    // pixels reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised renders: .01 to .2, but
+    // for 140 rays, which a denoiser leaves as they are.
     static constexpr int noise_apart = 3;
     static constexpr double noise_alike = 0.01;
     // Shares of the noise that differ by more are of noise that is the same but for a factor. Good renders: 1 at most.
     static constexpr double no_share = 4;
-    // A render has too little noise if the median of blocks of this side finds less than this part of what its samples tell.
+    // A render has too little noise if the median of blocks of this side finds less than this part of what its samples
+    // tell.
     static constexpr double little_noise = 0.4;
     static constexpr int noise_block_px = 16;
 

@@ -38,10 +38,9 @@ struct OpenedLdi : OpenedFile {
     bool reduced() const { return !std::holds_alternative<AllSamples>(held); }
 };
 
-// Opens any deep EXR, a flat one with depth, or a photograph with a depth file, which is a disparity if it is no EXR
-// (io/photograph.h); `-` is standard input. Throws Error if the file cannot be read, or most
-// of its depths are invalid (see sanitize()). Throws UsageError if its depth is the length of the ray and the focal
-// length is unknown.
+// Opens any deep EXR, a flat one with depth, or a photograph with a depth file, which is a disparity unless it is an EXR
+// file (io/photograph.h); `-` is standard input. Throws Error if the file cannot be read, or most of its depths are
+// invalid (see sanitize()). Throws UsageError if its depth is the length of the ray and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
 // Replaces the samples of some rows, which are tidy, by fewer; windows and channels stay. Several threads call it at

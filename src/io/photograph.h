@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// Whether the picture or its depth file is no EXR.
+// Whether the picture or its depth file is not an EXR file.
 bool is_photograph(const std::string &path, const PictureChoice &choice);
 
 // Reads the picture and its depth, which stays as it is in the file, integers as 0 to 1. Colours of integers are encoded

@@ -1,7 +1,7 @@
 // The lens of a photograph whose depth is a disparity, as programs estimate it from one picture: 0 is far, 1 is near, and
-// 1 / z is known only up to scale and offset. A lens compares the 1 / z of a point with that of its focus only, so the offset does not matter: 1 / z is taken as 1 +
-// disparity, which is nowhere 0. The CoC, R F (1 / focus - 1 / z), is then blur (disparity in focus - disparity), with
-// blur = R F, in pixels.
+// 1 / z is known only up to scale and offset. A lens compares the 1 / z of a point with that of its focus only, so the
+// offset does not matter: 1 / z is taken as 1 + disparity, which is nowhere 0. The CoC, R F (1 / focus - 1 / z), is then
+// blur (disparity in focus - disparity), with blur = R F, in pixels.
 #pragma once
 
 namespace sparselens {

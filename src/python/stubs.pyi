@@ -321,8 +321,8 @@ def gather(
     layers: Optional[int] = 8,  # the number of layers kept apart in a pixel; for the method selective.
     focus_pixel: Optional[tuple[int, int]] = None,  # (x, y), focuses on the front surface in this pixel of the picture, instead
     # of focus_distance.
-    blur: Optional[float] = None,  # pixels, for a photograph, in place of a lens: the radius of the disc of what is white in the
-    # depth if black is in focus.
+    blur: Optional[float] = None,  # pixels, for a photograph, in place of a lens: the radius of the disc that a white pixel of the
+    # depth becomes when black is in focus.
     holdout: Optional[Ldi] = None,  # an Ldi that hides what is behind it and is not shown itself; it stays sharp unless
     # holdout_defocused.
     holdout_defocused: bool = False,

@@ -7,8 +7,8 @@ namespace sparselens {
 
 class Flicker {
 public:
-    // The median change of disparity (lens/photograph.h) since the last call, over the pixels whose colour hardly changed;
-    // 0 for the first frame, for one of another size, and if less than a tenth of the picture stands still.
+    // The median change of disparity (lens/photograph.h) since the last call, over the pixels whose colour hardly
+    // changed; 0 for the first frame, for one of another size, and if less than a tenth of the picture stands still.
     double since_last(View frame);
 
 private:
