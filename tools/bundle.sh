@@ -6,7 +6,7 @@
 # Writes sparselens-VERSION-linux-x86_64.tar.xz, or with `unpacked` the folder in it. It holds the
 # tools, dof-trace of the laboratory, all libraries that they need with their loader, the Blender add-on as a zip, and
 # the licences of all of it. The tools start through the loader in the archive, so the system's C library may be older
-# or newer. In the place of OpenImageIO there is a module that writes PNG (src/io/display/png_module.cpp); other formats
+# or newer. In the place of OpenImageIO there is a module that writes PNG (src/io/display/small_module.cpp); other formats
 # are missing, and so is the plug-in for OpenImageIO. Needs the Debian packages of tools/install-deps.sh build bundle.
 #
 # The Python module is missing, too, because the archive must stay below 120 MB. The module works with one version of
@@ -23,8 +23,8 @@ case $#:${3-unpacked} in [1-3]:unpacked) ;; *) fail "usage: tools/bundle.sh BUIL
 build=$(cd "$1" 2>/dev/null && pwd) && [ -s "$build/CMakeCache.txt" ] || fail "$1 is not a build folder: cmake -S . -B $1 && cmake --build $1"
 out=$(cd "${2:-.}" && pwd) || fail "${2:-.} is not a folder"
 [ "$(uname -m)" = x86_64 ] || fail "the archive is of x86-64"
-png=$build/bundle/sparselens-png.so
-[ -s "$png" ] || fail "$build has no sparselens-png.so: tools/install-deps.sh bundle, and build again"
+png=$build/bundle/sparselens-small.so
+[ -s "$png" ] || fail "$build has no sparselens-small.so: tools/install-deps.sh bundle, and build again"
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 version=$(sed -nE 's/^project\(sparselens VERSION ([0-9.]+) .*/\1/p' "$here/CMakeLists.txt")
 name=sparselens-$version-linux-x86_64

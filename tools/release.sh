@@ -51,7 +51,7 @@ logged "${pip[@]}" wheel --no-deps --wheel-dir "$work" "$here" --config-settings
 logged "$work/python/bin/wheel" unpack --dest "$work" "$work"/*.whl
 root=$work/$name data=$work/$name/$name.data/data
 rm -r "$data/lib/sparselens/openimageio"
-install -s "$build/bundle/sparselens-png.so" "$data/lib/sparselens/sparselens-oiio.so"
+install -s "$build/bundle/sparselens-small.so" "$data/lib/sparselens/sparselens-oiio.so"
 mkdir "$data/lib/sparselens/libs"
 files=("$root"/sparselens/_sparselens*.so "$data"/bin/* "$data"/lib/sparselens/*.so)
 for file in "${files[@]}"; do ldd "$file"; done | sed -nE 's,^\t.* => (/[^ ]+) \(0x.*,\1,p' | sort -u |
