@@ -6,8 +6,9 @@
 # Writes sparselens-VERSION-linux-x86_64.tar.xz, or with `unpacked` the folder in it. It holds the
 # tools, dof-trace of the laboratory, all libraries that they need with their loader, the Blender add-on as a zip, and
 # the licences of all of it. The tools start through the loader in the archive, so the system's C library may be older
-# or newer. In the place of OpenImageIO there is a module that writes PNG (src/io/display/small_module.cpp); other formats
-# are missing, and so is the plug-in for OpenImageIO. Needs the Debian packages of tools/install-deps.sh build bundle.
+# or newer. In the place of OpenImageIO there is a module that writes PNG, and reads PNG and JPEG
+# (src/io/display/small_module.cpp); other formats are missing, and so is the plug-in for OpenImageIO. Needs the Debian
+# packages of tools/install-deps.sh build bundle.
 #
 # The Python module is missing, too, because the archive must stay below 120 MB. The module works with one version of
 # Python and one C library only, so the archive would need a Python interpreter (7 MB), its library (9), NumPy (13),

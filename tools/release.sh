@@ -41,7 +41,7 @@ logged cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/debian"
 cp "$work"/debian/*.deb "$out/"
 
 # The wheel has the libraries that its module and tools need, but for those of the C and C++ compilers, whose versions
-# its tag names. The module of the archive writes PNG.
+# its tag names. The module of the archive reads and writes pictures.
 say "the wheel"
 python3 -m venv "$work/python"
 pip=("$work/python/bin/pip" -q --disable-pip-version-check)

@@ -57,6 +57,15 @@ for name in picture half; do
     cmp theirs.info ours.info || fail "$name.png: $(cat ours.info), not $(cat theirs.info)"
 done
 
+# So are those that it reads of photographs and their depth, also turned as a camera says; others are named.
+oiiotool --pattern fill:topleft=0.1,0.5,0.9:bottomright=0.9,0.2,0.1 61x37 3 --noise --attrib Orientation 6 -d uint8 -o photo.jpg \
+    -o photo.tif --ch R -d uint16 --rotate90 --attrib Orientation 1 -o depth.png
+for of in theirs:"$bin" ours:"$made/bin"; do
+    exits 0 "${of#*:}/dof-gather" photo.jpg --depth-file depth.png --blur 5 --focus-pixel 8,9 -o "${of%%:*}/photo.exr"
+done
+oiiotool theirs/photo.exr ours/photo.exr --fail 1e-3 --diff >log 2>&1 || fail "another picture of a photograph: $(cat log)"
+fails_saying 1 'photo.tif: cannot read: this archive reads PNG and JPEG: convert it' "$made/bin/dof-gather" photo.tif --depth-file depth.png --blur 5 --focus-pixel 8,9 -o x.exr
+
 # The full disk is said.
 if [ -w /dev/full ]; then
     fails_saying 1 '/dev/full' "$made/bin/dof-gather" half.exr --focal-length 50 --sensor-width 36 --fstop 8 --focus-distance 3 -o /dev/full

@@ -28,7 +28,8 @@ sparselens.write(\"l.exr\", sparselens.warp([view]))
 sparselens.write(\"module.exr\", sparselens.gather(sparselens.open_ldi(\"l.exr\")))"
     dof-gather l.exr -o tool.exr
     dof-gather l.exr -o tool.png
-    [ -s tool.png ]'
+    dof-gather tool.png --depth-file tool.png --blur 5 --focus-pixel 8,9 -o photograph.png
+    [ -s photograph.png ]'
 logged env -i HOME="$scratch" PATH=/usr/bin:/bin bash -c "$use_wheel" - "$scratch" "$wheel"
 cmp module.exr tool.exr || fail "the module and the tool of the wheel make different pictures"
 strangers=$(ldd env/bin/dof-gather env/lib/python3*/site-packages/sparselens/*.so env/lib/sparselens/libs/* | grep '=>' |
