@@ -32,9 +32,9 @@ std::string why_ids_are_lost(Imf::Compression compression, const Channel &channe
 std::string data_changed_by(Imf::Compression compression, std::span<const Channel> channels);
 
 // The compression of a new file: the requested one; otherwise none into a pipe; otherwise that of `metadata` if it is
-// the header of a file of the same kind (flat or deep); otherwise ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte
-// need an exact method; if that of `metadata` is not exact, they get ZIP. Throws UsageError if a file with these
-// channels may not have the requested one.
+// the header of a file of the same kind (flat or deep); otherwise ZIP (flat), ZSTD (deep) or ZIPS (deep, before OpenEXR
+// 3.5). The ids of a Cryptomatte need an exact method; if that of `metadata` is not exact, they get ZIP. Throws
+// UsageError if a file with these channels may not have the requested one.
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
                                     const Imf::Header &metadata, std::span<const Channel> channels);
 
