@@ -1,5 +1,5 @@
 // How values of light are judged: luminance, the tone mapping with which pictures are compared (v / (1 + v), then
-// gamma 1/2.2), and the limits of full and of no coverage.
+// gamma 1/2.2), the code values of sRGB (IEC 61966-2-1), and the limits of full and of no coverage.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,11 @@ inline double tone_mapped(double v) {
     const double positive = std::max(v, 0.0);
     return std::pow(positive / (1 + positive), 1 / 2.2);
 }
+
+inline double srgb_encoded(double v) {
+    return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+inline double srgb_decoded(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
 // Whether a sample hides what is behind it. The last steps of half below 1 are rounding, not coverage.
 inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }

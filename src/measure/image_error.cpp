@@ -24,16 +24,18 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 // Contribution of a row to a region's figures. Sums are in double, rows in order: the same at any thread count.
 struct Sums {
-    double squared = 0, squared_tonemapped = 0, relative = 0, symmetric = 0, ssim = 0;
+    double squared = 0, squared_tonemapped = 0, squared_srgb = 0, relative = 0, symmetric = 0;
+    std::array<double, 2> ssim{}; // tone-mapped, sRGB
     double max = 0, max_alpha = 0;
     std::size_t pixels = 0, windows = 0, nonfinite_image = 0, nonfinite_reference = 0;
 
     void add(const Sums &row) {
         squared += row.squared;
         squared_tonemapped += row.squared_tonemapped;
+        squared_srgb += row.squared_srgb;
         relative += row.relative;
         symmetric += row.symmetric;
-        ssim += row.ssim;
+        for (std::size_t i = 0; i < ssim.size(); ++i) ssim[i] += row.ssim[i];
         max = std::max(max, row.max);
         max_alpha = std::max(max_alpha, row.max_alpha);
         pixels += row.pixels;
@@ -60,9 +62,14 @@ bool is_finite(const Pixel &pixel) {
     return std::all_of(pixel.begin(), pixel.end(), [](float v) { return std::isfinite(v); });
 }
 
+struct Luma {
+    float image = not_a_number, reference = not_a_number; // NaN where either picture is not finite
+};
+using Lumas = std::array<Luma, 2>; // tone-mapped, sRGB
+
 struct PixelError {
     Sums sums;
-    float luma_image = not_a_number, luma_reference = not_a_number;
+    Lumas luma;
 };
 
 PixelError error_of(const Pixel &image, const Pixel &reference) {
@@ -71,23 +78,27 @@ PixelError error_of(const Pixel &image, const Pixel &reference) {
     sums.nonfinite_image = !is_finite(image);
     sums.nonfinite_reference = !is_finite(reference);
     if (sums.nonfinite_image || sums.nonfinite_reference) return error;
-    double luma_image = 0, luma_reference = 0;
+    std::array<std::array<double, 2>, 2> luma{};
     for (std::size_t c = 0; c < colours; ++c) {
         const double a = image[c], b = reference[c], difference = std::abs(a - b),
                      square = difference * difference;
-        const double tone_a = tone_mapped(a), tone_b = tone_mapped(b);
+        const double tone_a = tone_mapped(a), tone_b = tone_mapped(b),
+                     srgb_a = srgb_encoded(std::clamp(a, 0.0, 1.0)),
+                     srgb_b = srgb_encoded(std::clamp(b, 0.0, 1.0));
         sums.squared += square;
         sums.squared_tonemapped += (tone_a - tone_b) * (tone_a - tone_b);
+        sums.squared_srgb += (srgb_a - srgb_b) * (srgb_a - srgb_b);
         sums.relative += square / (b * b + 0.01);
         sums.symmetric += difference / (std::abs(a) + std::abs(b) + 0.01);
         sums.max = std::max(sums.max, difference);
-        luma_image += luma_weights[c] * tone_a;
-        luma_reference += luma_weights[c] * tone_b;
+        luma[0][0] += luma_weights[c] * tone_a;
+        luma[0][1] += luma_weights[c] * tone_b;
+        luma[1][0] += luma_weights[c] * srgb_a;
+        luma[1][1] += luma_weights[c] * srgb_b;
     }
     sums.max_alpha = std::abs(double(image[alpha]) - double(reference[alpha]));
     sums.pixels = 1;
-    error.luma_image = float(luma_image);
-    error.luma_reference = float(luma_reference);
+    for (std::size_t i = 0; i < luma.size(); ++i) error.luma[i] = {float(luma[i][0]), float(luma[i][1])};
     return error;
 }
 
@@ -147,10 +158,12 @@ ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
     const bool any = sums.pixels > 0;
     return {.psnr = decibels(sums.squared / values),
             .psnr_tonemapped = decibels(sums.squared_tonemapped / values),
+            .psnr_srgb = decibels(sums.squared_srgb / values),
             .psnr_worst = decibels(worst),
             .relmse = sums.relative / values,
             .smape = sums.symmetric / values,
-            .ssim = sums.ssim / double(sums.windows),
+            .ssim = sums.ssim[0] / double(sums.windows),
+            .ssim_srgb = sums.ssim[1] / double(sums.windows),
             .p99 = p99,
             .max = any ? sums.max : not_a_number,
             .max_alpha = any ? sums.max_alpha : not_a_number,
@@ -160,21 +173,25 @@ ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
 }
 
 struct LumaPlanes {
-    std::vector<float> image, reference; // NaN where either picture is not finite
+    std::vector<float> image, reference;
 };
 
-LumaPlanes add_pixel_errors(const Image &image, const Image &reference, const PixelSets &sets,
-                            std::vector<RowSums> &rows, Blocks &blocks) {
+// Returns the planes of Lumas.
+std::array<LumaPlanes, 2> add_pixel_errors(const Image &image, const Image &reference, const PixelSets &sets,
+                                           std::vector<RowSums> &rows, Blocks &blocks) {
     const Planes image_planes(image), reference_planes(reference);
     const std::size_t width = std::size_t(image.windows.width());
-    LumaPlanes luma{std::vector<float>(image.windows.pixels()), std::vector<float>(image.windows.pixels())};
+    const std::vector<float> plane(image.windows.pixels());
+    std::array<LumaPlanes, 2> luma{LumaPlanes{plane, plane}, LumaPlanes{plane, plane}};
     const std::size_t columns = pieces_of(width, block_size);
     for (auto &of_set : blocks) of_set.resize(columns * pieces_of(rows.size(), block_size));
     parallel_ranges(rows.size(), block_size, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * width; i < end * width; ++i) {
             const PixelError error = error_of(image_planes[i], reference_planes[i]);
-            luma.image[i] = error.luma_image;
-            luma.reference[i] = error.luma_reference;
+            for (std::size_t n = 0; n < luma.size(); ++n) {
+                luma[n].image[i] = error.luma[n].image;
+                luma[n].reference[i] = error.luma[n].reference;
+            }
             for (std::size_t set = 0; set < sets.count; ++set) {
                 if (!sets.holds(set, i)) continue;
                 rows[i / width][set].add(error.sums);
@@ -187,17 +204,23 @@ LumaPlanes add_pixel_errors(const Image &image, const Image &reference, const Pi
     return luma;
 }
 
-void add_similarity(const SsimMap &ssim, const Grid &pixels, const PixelSets &sets,
+void add_similarity(const std::array<LumaPlanes, 2> &luma, const Grid &pixels, const PixelSets &sets,
                     std::vector<RowSums> &rows) {
+    const auto map_of = [&](const LumaPlanes &of) {
+        return ssim_map(of.image, of.reference, pixels.width(), pixels.height());
+    };
+    const SsimMap ssim = map_of(luma[0]), ssim_srgb = map_of(luma[1]);
     const Grid windows(ssim.width, ssim.height);
     parallel_for(std::size_t(ssim.height), [&](std::size_t y) {
         for (int x = 0; x < ssim.width; ++x) {
-            const double value = ssim.values[windows.index(x, int(y))];
+            const std::size_t window = windows.index(x, int(y));
+            const double value = ssim.values[window];
             if (std::isnan(value)) continue; // the window holds a pixel that is not finite
             const std::size_t centre = pixels.index(x + ssim.centre_x, int(y) + ssim.centre_y);
             for (std::size_t set = 0; set < sets.count; ++set) {
                 if (!sets.holds(set, centre)) continue;
-                rows[y][set].ssim += value;
+                rows[y][set].ssim[0] += value;
+                rows[y][set].ssim[1] += ssim_srgb.values[window];
                 ++rows[y][set].windows;
             }
         }
@@ -235,8 +258,7 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     const int width = image.windows.width(), height = image.windows.height();
     std::vector<RowSums> rows(std::size_t(height), RowSums(sets.count));
     Blocks blocks(sets.count);
-    const LumaPlanes luma = add_pixel_errors(image, reference, sets, rows, blocks);
-    add_similarity(ssim_map(luma.image, luma.reference, width, height), Grid(width, height), sets, rows);
+    add_similarity(add_pixel_errors(image, reference, sets, rows, blocks), Grid(width, height), sets, rows);
     std::vector<ErrorFigures> figures(sets.count);
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;

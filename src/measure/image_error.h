@@ -3,12 +3,14 @@
 // Let a be the picture and b the reference. Means are taken over the three channels of the compared pixels:
 //   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite if a = b
 //   psnr_tonemapped  the same for tone-mapped values (light.h)
+//   psnr_srgb        the same for values limited to [0, 1] and encoded as sRGB, as papers quote it
 //   psnr_worst       psnr_tonemapped of the worst 1 % (at least one) of the blocks of 8 x 8 pixels, counted from the
 //                    upper left corner; in a region a block has the pixels of that region
 //   relmse           mean of (a - b)^2 / (b^2 + 0.01)
 //   smape            mean of |a - b| / (|a| + |b| + 0.01), [0, 1)
 //   ssim             mean structural similarity (below) of the luma (Rec. 709 weights) of the tone-mapped
 //                    channels; a region counts the windows that are centred in it
+//   ssim_srgb        the same for the channels of psnr_srgb
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
 //   max, max_alpha   the largest |a - b| of the colours, and of A
 //   flip             the mean of flip_map() (flip.h), if it was measured
@@ -31,7 +33,7 @@
 namespace sparselens {
 
 struct ErrorFigures {
-    double psnr, psnr_tonemapped, psnr_worst, relmse, smape, ssim, p99, max, max_alpha;
+    double psnr, psnr_tonemapped, psnr_srgb, psnr_worst, relmse, smape, ssim, ssim_srgb, p99, max, max_alpha;
     std::size_t pixels = 0; // compared pixels
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
     std::optional<double> flip = {};
@@ -43,15 +45,17 @@ struct Figure {
     double ErrorFigures::*value;
 };
 
-inline constexpr std::array<Figure, 9> figure_table{{{"psnr", &ErrorFigures::psnr},
-                                                     {"psnr_tonemapped", &ErrorFigures::psnr_tonemapped},
-                                                     {"psnr_worst", &ErrorFigures::psnr_worst},
-                                                     {"relmse", &ErrorFigures::relmse},
-                                                     {"smape", &ErrorFigures::smape},
-                                                     {"ssim", &ErrorFigures::ssim},
-                                                     {"p99", &ErrorFigures::p99},
-                                                     {"max", &ErrorFigures::max},
-                                                     {"max_alpha", &ErrorFigures::max_alpha}}};
+inline constexpr std::array figure_table{Figure{"psnr", &ErrorFigures::psnr},
+                                         Figure{"psnr_tonemapped", &ErrorFigures::psnr_tonemapped},
+                                         Figure{"psnr_srgb", &ErrorFigures::psnr_srgb},
+                                         Figure{"psnr_worst", &ErrorFigures::psnr_worst},
+                                         Figure{"relmse", &ErrorFigures::relmse},
+                                         Figure{"smape", &ErrorFigures::smape},
+                                         Figure{"ssim", &ErrorFigures::ssim},
+                                         Figure{"ssim_srgb", &ErrorFigures::ssim_srgb},
+                                         Figure{"p99", &ErrorFigures::p99},
+                                         Figure{"max", &ErrorFigures::max},
+                                         Figure{"max_alpha", &ErrorFigures::max_alpha}};
 
 // R, G, B and A of `image` over the data window of `target`; the corners of the display windows coincide. Pixels
 // outside `image` are transparent black. Without a channel A, the pixels inside have A = 1.

@@ -221,7 +221,7 @@ class _Nonfinite(TypedDict):
     image, reference: int
 
 class _Figures(TypedDict):
-    psnr, psnr_tonemapped, psnr_worst, relmse, smape, ssim, p99, max, max_alpha: float
+    psnr, psnr_tonemapped, psnr_srgb, psnr_worst, relmse, smape, ssim, ssim_srgb, p99, max, max_alpha: float
     pixels: int
     nonfinite: _Nonfinite
 
@@ -441,9 +441,9 @@ def compare(
     regions: Optional[Ldi] = None,  # an Ldi that tells what is in focus, blurred, or a silhouette, by its lens.
     **LENS,  # Lens values replace those of the Ldi:
 ) -> _Comparison:
-    """Returns how far a picture is from its reference, as a dict of dof-compare's figures: psnr, psnr_tonemapped and
-    psnr_worst (dB), relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite; with regions, also the same for each
-    region.
+    """Returns how far a picture is from its reference, as a dict of dof-compare's figures: psnr, psnr_tonemapped,
+    psnr_srgb and psnr_worst (dB), relmse, smape, ssim, ssim_srgb, p99, max, max_alpha, pixels, nonfinite;
+    with regions, also the same for each region.
 
     Raises Error if R, G or B is missing or the display windows differ in size."""
 

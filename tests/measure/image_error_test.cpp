@@ -128,6 +128,18 @@ TEST(ImageError, ConstantPicturesHaveClosedForms) {
     EXPECT_EQ(figures.max_alpha, 0.5);
 }
 
+// 0.04 is on the curve of sRGB, 0.002 on its line; what is brighter than white is white.
+TEST(ImageError, CodeValuesOfSrgbHaveClosedForms) {
+    const ErrorFigures figures =
+        whole(constant(16, 12, {0.04f, 0.002f, 3, 1}), constant(16, 12, {0, 0, 1, 1}));
+    const double red = 1.055 * std::pow(0.04, 1 / 2.4) - 0.055, green = 12.92 * 0.002,
+                 luma = 0.2126 * red + 0.7152 * green, white = 0.0722;
+    EXPECT_NEAR(figures.psnr_srgb, -10 * std::log10((red * red + green * green) / 3), 1e-6);
+    EXPECT_NEAR(figures.ssim_srgb,
+                (2 * (luma + white) * white + 1e-4) / (std::pow(luma + white, 2) + white * white + 1e-4),
+                1e-6);
+}
+
 TEST(ImageError, LumaWeighsGreenMost) {
     const Image black = constant(11, 11, {0, 0, 0, 1});
     const auto ssim_of = [&](std::size_t channel) {

@@ -87,11 +87,13 @@ exits 0 "$bin/dof-trace" fence --size 96x54 --views 0 --reference 256 -d float -
 for rays in few many; do
     oiiotool $rays/reference.exr --ch R,G,B -d float -o $rays.exr
     oiiotool $rays.exr $rays.exr --addc 1 --div --powc 0.45454545 -d float -o $rays-toned.exr
+    oiiotool $rays.exr --clamp:min=0:max=1 --colorconvert linear sRGB -d float -o $rays-srgb.exr
 done
 decibels() { idiff "$@" | awk '/RMS error/ { print -20 * log($4) / log(10) }'; }
 exits 0 "$compare" few/reference.exr many/reference.exr --json
 is psnr "$(decibels few.exr many.exr)" "" 0.0002
 is psnr_tonemapped "$(decibels few-toned.exr many-toned.exr)" "" 0.0002
+is psnr_srgb "$(decibels few-srgb.exr many-srgb.exr)" "" 0.0002
 
 # Non-finite pixels are counted and left out.
 picture edit b.exr bad.exr fill=1x1+3+4 R=inf

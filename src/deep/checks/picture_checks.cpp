@@ -20,17 +20,8 @@ constexpr double even = 0.1;             // change within a side, of the contras
 constexpr double clearly_mixed = 0.15;   // share of either side, at least
 constexpr double least_departure = 0.01; // of the curve from the line, relative to the contrast
 
-// sRGB.
-Imath::V3d decoded(const Imath::V3d &v) {
-    const auto one = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-    return {one(v.x), one(v.y), one(v.z)};
-}
-Imath::V3d encoded(const Imath::V3d &v) {
-    const auto one = [](double c) {
-        return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    };
-    return {one(v.x), one(v.y), one(v.z)};
-}
+Imath::V3d decoded(const Imath::V3d &v) { return {srgb_decoded(v.x), srgb_decoded(v.y), srgb_decoded(v.z)}; }
+Imath::V3d encoded(const Imath::V3d &v) { return {srgb_encoded(v.x), srgb_encoded(v.y), srgb_encoded(v.z)}; }
 
 // The point at `along` on the way from a to b for a mixture of light that is encoded afterwards.
 Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
