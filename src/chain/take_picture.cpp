@@ -10,6 +10,7 @@
 #include "dof/false_colour.h"
 #include "dof/gather_rows.h"
 #include "io/camera/camera_header.h"
+#include "io/display/shown_picture.h"
 #include "io/exr/exr_header.h"
 #include "lens/photograph.h"
 #include "view/lens_views.h"
@@ -267,6 +268,8 @@ ThinLens picture_lens(const PictureRequest &request, const OpenedLdi &in, const 
 }
 
 Ldi open_holdout(const PictureRequest &request, const OpenedLdi &in) {
+    if (has_shown_ending(request.holdout))
+        throw UsageError("`holdout`: " + request.holdout + " is not an EXR file");
     OpenOptions by{request.lens, request.depth};
     by.depth.picture.depth_file.clear(); // belongs to the picture
     return holdout_of(request, in, open_ldi(request.holdout, by));

@@ -31,7 +31,7 @@ oiiotool one.exr --ch R,G,B -o view.png
 for tool in ldi-warp ldi-plan; do fails_saying 1 "^$tool: view.png: is a PNG picture, and EXR is needed: render to EXR" "$bin/$tool" view.png -o x.exr; done
 fails_saying 2 '^dof-gather: view.png: is a picture without depth: give its depth by --depth-file' "$bin/dof-gather" view.png -o x.exr
 [ ! -e x.exr ] || fail "reads a PNG without depth"
-fails_saying 1 'view.png: is a PNG picture' "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --holdout view.png
+fails_saying 2 '--holdout: view.png is not an EXR file' "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --holdout view.png
 fails_saying 1 'view.png: is a PNG picture' "$bin/dof-gather" one.exr -o x.exr --focal-length 50 --sensor-width 36 --lens-radius 1 \
     --focus-distance 3 --aperture view.png
 fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --lens-radius 0 <view.png' - "$bin/dof-gather"
