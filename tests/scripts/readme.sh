@@ -63,6 +63,7 @@ cat >>options <<'END'
 --gtest_brief
 --info
 --install
+--invert
 --mulc
 --no-build-isolation
 --no-deps
