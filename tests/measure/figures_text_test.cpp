@@ -11,16 +11,18 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const ErrorFigures some{infinity, 40.123456789, 30.5, 0.25, 1e-7, 0.5, nan, 2, 0, 100, 3, 4};
+const ErrorFigures some{infinity, 40.123456789, 35, 30.5, 0.25, 1e-7, 0.5, 0.75, nan, 2, 0, 100, 3, 4};
 
 TEST(FiguresText, JsonKeepsAllDigitsAndInfinityIsNull) {
     const auto json = nlohmann::ordered_json::parse(figures_as_json(some, {}));
     const nlohmann::ordered_json expected{{"psnr", nullptr},
                                           {"psnr_tonemapped", 40.123456789},
+                                          {"psnr_srgb", 35},
                                           {"psnr_worst", 30.5},
                                           {"relmse", 0.25},
                                           {"smape", 1e-7},
                                           {"ssim", 0.5},
+                                          {"ssim_srgb", 0.75},
                                           {"p99", nullptr},
                                           {"max", 2},
                                           {"max_alpha", 0},
