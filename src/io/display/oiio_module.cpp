@@ -1,10 +1,9 @@
 #include "io/display/oiio_module.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -39,11 +38,11 @@ const char *write(const OiioPicture &picture) {
 
 // Turns a plane of the file as its attribute Orientation says.
 void turn(float *plane, const OIIO::ImageSpec &spec, int orientation) {
-    OIIO::ImageBuf as_stored(OIIO::ImageSpec(spec.width, spec.height, 1, OIIO::TypeDesc::FLOAT), plane);
-    OIIO::ImageBuf copy = as_stored.copy(OIIO::TypeDesc::FLOAT); // reorient() would read what it writes
-    copy.set_orientation(orientation);
-    const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(copy);
-    turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, plane);
+    const std::vector<float> stored(plane, plane + std::ptrdiff_t(spec.width) * spec.height);
+    const float *from = stored.data();
+    for (int y = 0; y < spec.height; ++y)
+        for (int x = 0; x < spec.width; ++x)
+            plane[upright(x, y, spec.width, spec.height, orientation)] = *from++;
 }
 
 const char *read(const char *path, OiioSize &size, float *values) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace sparselens {
@@ -38,6 +39,16 @@ struct OiioModule {
 };
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";
+
+// The index of a stored pixel in the picture that is turned upright, by the attribute Orientation of Exif, 1 to 8. From 5
+// on, rows become columns.
+inline std::size_t upright(int x, int y, int stored_width, int stored_height, int orientation) {
+    const auto is = [&](auto... one) { return ((orientation == one) || ...); };
+    const auto column = std::size_t(is(2, 3, 7, 8) ? stored_width - 1 - x : x),
+               row = std::size_t(is(3, 4, 6, 7) ? stored_height - 1 - y : y);
+    return orientation > 4 ? column * std::size_t(stored_height) + row
+                           : row * std::size_t(stored_width) + column;
+}
 
 // Rounds as OpenImageIO does; NaN becomes 0.
 inline std::uint8_t in_8_bits(float value) {

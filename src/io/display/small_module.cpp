@@ -156,18 +156,6 @@ Stored read_jpeg(std::FILE *file, bool values) {
     return stored;
 }
 
-// Where a stored pixel is in the picture that is turned upright.
-std::size_t upright(const Stored &of, int x, int y) {
-    const bool mirrored =
-                   of.orientation == 2 || of.orientation == 3 || of.orientation == 7 || of.orientation == 8,
-               upside_down =
-                   of.orientation == 3 || of.orientation == 4 || of.orientation == 6 || of.orientation == 7;
-    if (mirrored) x = of.width - 1 - x;
-    if (upside_down) y = of.height - 1 - y;
-    return of.orientation > 4 ? std::size_t(x) * std::size_t(of.height) + std::size_t(y)
-                              : std::size_t(y) * std::size_t(of.width) + std::size_t(x);
-}
-
 void read_file(const char *path, OiioSize &size, float *values) {
     const File file = opened(path, "rb");
     const int first = std::fgetc(file.get());
@@ -180,10 +168,11 @@ void read_file(const char *path, OiioSize &size, float *values) {
     if (!values) size = {width, height, stored.pixel_aspect, false};
     if (width != size.width || height != size.height) throw std::runtime_error("it has changed");
     const std::size_t pixels = stored.values.size() / 3;
-    for (std::size_t i = 0; i < pixels; ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            values[k * pixels + upright(stored, int(i % std::size_t(stored.width)),
-                                        int(i / std::size_t(stored.width)))] = stored.values[3 * i + k];
+    const float *from = stored.values.data();
+    for (int y = 0; values && y < stored.height; ++y)
+        for (int x = 0; x < stored.width; ++x, from += 3)
+            for (std::size_t k = 0; k < 3; ++k)
+                values[k * pixels + upright(x, y, stored.width, stored.height, stored.orientation)] = from[k];
 }
 
 // Returns null, or why the work fails.

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
+#include "io/display/oiio_module.h"
 #include "io/display/shown_picture.h"
 #include "support/png.h"
 #include "support/scratch_folder.h"
@@ -7,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <string>
+#include <string_view>
 
 namespace sparselens {
 namespace {
@@ -111,6 +115,19 @@ TEST(ShownPicture, ThreadsMayWriteAtTheSameTime) {
     const auto image = [](std::size_t i) { return noise(20 + int(i), 10); };
     parallel_for(24, [&](std::size_t i) { write_shown_picture(file(i), image(i)); });
     for (std::size_t i = 0; i < 24; ++i) expect_reads_back(file(i), image(i));
+}
+
+// The first row of a stored picture is, from orientation 1 on, at the top, the top, the bottom, the bottom, the left, the
+// right, the right and the left; the first column at the left, right, right, left, top, top, bottom and bottom (Exif).
+TEST(Upright, FollowsTheTableOfExif) {
+    constexpr std::array<std::string_view, 8> turned{"abcdef", "cbafed", "fedcba", "defabc",
+                                                     "adbecf", "daebfc", "fcebda", "cfbead"};
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+        std::string found(6, ' ');
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 3; ++x) found[upright(x, y, 3, 2, orientation)] = char('a' + 3 * y + x);
+        EXPECT_EQ(found, turned[std::size_t(orientation - 1)]) << orientation;
+    }
 }
 
 } // namespace
