@@ -77,16 +77,19 @@ DenoisedLayer layer_of(const PackedView &view, const DenoisedPicture &denoised,
 // Throws Error if a denoised picture is clearly nearer to another view than to its own.
 void check_order(std::span<const DenoisedLayer> layers, std::span<const PackedView> views,
                  std::span<const DenoisedPicture> denoised) {
-    const auto apart = [&](std::size_t picture, std::size_t view) {
-        const Values &a = layers[picture].denoised[0], &b = layers[view].noisy[0];
+    const std::size_t count = views.size();
+    std::vector<double> apart(count * count); // of each picture from each view; 0 if their sizes differ
+    parallel_for(apart.size(), [&](std::size_t i) {
+        const Values &a = layers[i / count].denoised[0], &b = layers[i % count].noisy[0];
         double sum = 0;
-        for (std::size_t i = 0; i < a.size(); ++i)
-            sum += double(std::abs(a[i] - b[i]) / (std::abs(a[i]) + std::abs(b[i]) + 1e-20f));
-        return sum;
-    };
-    for (std::size_t p = 0; p < views.size(); ++p)
-        for (std::size_t v = 0; v < views.size(); ++v)
-            if (layers[p].grid.size() == layers[v].grid.size() && apart(p, v) < 0.9 * apart(p, p))
+        for (std::size_t k = 0; a.size() == b.size() && k < a.size(); ++k)
+            sum += double(std::abs(a[k] - b[k]) / (std::abs(a[k]) + std::abs(b[k]) + 1e-20f));
+        apart[i] = sum;
+    });
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t v = 0; v < count; ++v)
+            if (layers[p].grid.size() == layers[v].grid.size() &&
+                apart[p * count + v] < 0.9 * apart[p * count + p])
                 throw Error(
                     fmt::format("{}: shows what {} shows, not {}: give `denoised` in the order of the views",
                                 denoised[p].name, views[v].name, views[p].name));
