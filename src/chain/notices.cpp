@@ -84,8 +84,7 @@ constexpr std::array table{
         "outside the frame are missing, so render more overscan"},
     Words{NoticeKind::flicker, warning,
           "{file}: its depth flickers: where the picture stands still, half of the pixels change their blur "
-          "by {0:.1f} "
-          "pixels or more since the frame before"},
+          "by {0:.1f} pixels or more since the frame before"},
     Words{NoticeKind::on_cpu, note, "device: the CPU"},
     Words{NoticeKind::on_device, note, "device: {0}"},
     Words{NoticeKind::no_vulkan, note, "no device by Vulkan: {0}"},

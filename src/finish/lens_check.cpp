@@ -1,5 +1,6 @@
 #include "finish/lens_check.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "finish/tuning.h"
 
@@ -156,14 +157,14 @@ float bend(std::span<const float> plane, std::size_t i) {
     return plane[i] - (plane[i - 1] + plane[i + 1]) / 2;
 }
 
-// Pairs of pixels a few pixels apart: how many there are, how many of their differences have the same direction, and
-// how many would by chance.
+// Counts pairs of pixels that are a few pixels apart: all pairs, those in which both pixels are brighter in the same
+// render, and how many of these to expect by chance.
 struct Directions {
     std::size_t same = 0, all = 0;
     double expected = 0;
 };
 
-// In a block, to the left of or above each pixel `i`, at i - apart.
+// Adds the pairs of each pixel of a block with the pixel whose index is smaller by `apart`.
 void add_directions(const Values &a, const Values &b, const Grid &grid, const Imath::Box2i &box,
                     std::size_t apart, Directions &sum) {
     std::size_t all = 0, same = 0, up = 0, other_up = 0;
@@ -184,7 +185,7 @@ void add_directions(const Values &a, const Values &b, const Grid &grid, const Im
     sum.expected += double(all) * (p * q + (1 - p) * (1 - q));
 }
 
-// How many more of them agree than by chance, and by four standard deviations of it.
+// The share of pairs that agree, less what chance explains: the expected share and four standard deviations.
 double agreement(const Values &a, const Values &b, const Grid &grid) {
     constexpr int apart = FinishTuning::noise_apart;
     Directions sum;
@@ -218,10 +219,7 @@ double noise_of_first(const Values &first, const Values &second, const Values &g
             }
         if (all > 0) shares.push_back(own / all);
     }
-    if (shares.empty()) return 0.5;
-    const auto middle = shares.begin() + std::ptrdiff_t(shares.size() / 2);
-    std::ranges::nth_element(shares, middle);
-    return *middle;
+    return shares.empty() ? 0.5 : median(shares);
 }
 
 Values mapped(std::span<const half> values) {
@@ -257,7 +255,7 @@ NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> secon
         return all > 0 ? double(part) / double(all) : 0;
     };
     NoiseOfTwo found{
-        share(equal, told), share(equal_excess, excess), share(excess, a.size()), agreement(a, b, grid), {}};
+        share(equal, told), share(excess, a.size()), share(equal_excess, excess), agreement(a, b, grid), {}};
     const double of_first = noise_of_first(a, b, g, grid);
     found.of_each = {of_first, 1 - of_first};
     return found;

@@ -35,14 +35,16 @@ LensMistakes check_lens(const LayerToFinish &layer);
 // What one channel of two renders and of the gathered picture tells about their noise. Values that are not finite are
 // left out.
 //
-// The renders differ by noise alone, which is independent from pixel to pixel: in a block, as many pixels as by chance
-// differ in the same direction as others nearby. If more do, the renders are denoised, or not of one picture. Each
+// The renders differ by noise alone, which is independent from pixel to pixel: in a block, two nearby pixels are
+// brighter in the same render no more often than by chance. If they are, the renders are denoised, or differ in what
+// they show. Each
 // render's share of the squared difference is the difference times what the render has beyond the gathered picture.
 struct NoiseOfTwo {
-    double equal = 0;                        // the share of rough pixels that are the same
-    double equal_excess = 0;                 // the same for those that are smoother in the gathered picture,
-    double excess = 0;                       // which are this share of the picture
-    double alike = 0;                        // how many more signs than half agree, beyond chance
+    double equal =
+        0; // the share of pixels, among those that differ from the pixel before, that are the same in both
+    double excess = 0;       // the share of pixels that are rough, and smooth in the gathered picture
+    double equal_excess = 0; // the share of these that are the same in both
+    double alike = 0;        // the share of pairs of pixels that agree beyond chance
     std::array<double, 2> of_each{0.5, 0.5}; // shares of the noise
     bool same() const;
 };

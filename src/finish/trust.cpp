@@ -128,7 +128,7 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                         sums.unseen[cell] += count * double(evidence.removed[k][i]) * evidence.event_height;
                     };
                     add(of_one[b], noise);
-                    // The picture of both renders has the noise of neither: it is as if both had equal samples.
+                    // The noise of the picture of both is that of two renders with half of all samples each.
                     add(of_all[b], double(evidence.spread[i]) * of_both * 2 / (samples[0] + samples[1]));
                 }
             }

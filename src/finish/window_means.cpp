@@ -209,10 +209,6 @@ void soften(ClassTable &table) {
     along(classes, 1);
 }
 
-} // namespace
-
-namespace {
-
 // How far all classes together prove that the shares fit better than none, by the variance between blocks: 0 to 1.
 double proof_of(const Shares &shares, const ClassTable &answers, const std::vector<ClassSums> &blocks) {
     double gain = 0, variance = 0;

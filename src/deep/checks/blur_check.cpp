@@ -11,10 +11,12 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t enough = 100; // edges
-constexpr double defocused = 0.74;  // half way between 0.48, at a CoC of 4, and 1, through a pinhole
-constexpr std::size_t side = 3;     // pixels of a surface on either side of an edge
-constexpr std::size_t length = 29;  // pixels from the end of one side to that of the other
+constexpr std::size_t enough = 100;    // edges
+constexpr double defocused = 0.74;     // half way between 0.48, at a CoC of 4, and 1, through a pinhole
+constexpr std::size_t side = 3;        // pixels of a surface on either side of an edge
+constexpr std::size_t length = 29;     // pixels from the end of one side to that of the other
+constexpr double focused_coc = 1;      // pixels; below, nothing is blurred
+constexpr double finer_in_focus = 1.2; // a lens shows 1.8 times as much in focus, and more; a filter as much
 constexpr double least_coc = 4, largest_coc = 10; // of the nearer surface: the blur lies between the sides
 constexpr double apart = 2;                       // pixels, of CoC
 constexpr double contrast = 0.2;                  // of the sides, relative to their sum
@@ -122,14 +124,14 @@ EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens) {
             if (const auto steepest = steepest_of({pixels, coc, line, i})) found.push_back(*steepest);
     });
     if (found.empty()) return {};
-    const auto in_focus = [&](std::size_t i) { return std::abs(coc[i]) < 1; };
+    const auto in_focus = [&](std::size_t i) { return std::abs(coc[i]) < float(focused_coc); };
     const auto out_of_focus = [&](std::size_t i) { return std::abs(coc[i]) >= float(least_coc); };
     return {found.size(), median(found), fineness_of(pixels, out_of_focus), fineness_of(pixels, in_focus)};
 }
 
 bool looks_defocused(const EdgeSharpness &sharpness) {
     return sharpness.edges >= enough && sharpness.steepest < defocused && sharpness.fine < sharp_step &&
-           sharpness.fine_in_focus > 1.2 * sharpness.fine;
+           sharpness.fine_in_focus > finer_in_focus * sharpness.fine;
 }
 
 } // namespace sparselens
