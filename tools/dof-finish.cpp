@@ -115,8 +115,7 @@ Image shown(FinishedPicture finished, ShowFinished show) {
 }
 
 // Tells people, and returns what --stats writes.
-Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
-                const std::array<double, 2> &samples, const ToolContext &tool) {
+Stats say_error(const FinishCommand &options, const FinishedPicture &finished, const ToolContext &tool) {
     const ErrorEstimate &error = finished.error;
     const auto known = decibels(error);
     Stats stats{{"estimated_mse", error.mean}, {"estimated_mse_deviation", error.standard_deviation}};
@@ -127,7 +126,7 @@ Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
     tool.say(known ? fmt::format("estimated error: {:.2f} dB", *known)
                    : std::string("the error is too small for these renders to tell"));
     if (!options.goal) return stats;
-    const auto times = times_the_rays(error, samples, *options.goal);
+    const auto times = times_the_rays(error, finished.samples.mean, *options.goal);
     stats["times_the_rays"] = times ? Stats(*times) : Stats(nullptr);
     if (!times)
         fmt::print(stderr, "{}: {:g} dB: these renders cannot tell; give more samples\n", tool.tool_name,
@@ -140,6 +139,26 @@ Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
         fmt::print(stderr, "{}: {:g} dB: about {:.1f} times the rays\n", tool.tool_name, *options.goal,
                    *times);
     return stats;
+}
+
+// Writes the mask, prints the rectangles, and adds them to the statistics.
+void ask(const FinishCommand &options, const FinishedPicture &finished, const Imf::Header &header,
+         Stats &stats) {
+    const double there = finished.samples.mean[0] + finished.samples.mean[1];
+    if (options.rays > 0 && options.rays <= there)
+        throw UsageError(fmt::format("--rays {:g}: the renders have {:g} already", options.rays, there));
+    const Windows &windows = finished.image.windows;
+    const AskedRays asked = ask_rays(finished.error, finished.samples, windows.grid(), options.rays,
+                                     std::pow(10, -options.goal.value_or(0) / 10));
+    Image mask(windows, {{"samples", PixelType::float32}});
+    std::ranges::copy(asked.more, mask.plane(0).begin());
+    write_flat_exr(options.ask, mask, header, options.compression);
+    for (const auto &[box, samples] : asked.rectangles) {
+        const Imath::V2i size = box.max - box.min + Imath::V2i(1);
+        fmt::print(options.output == "-" ? stderr : stdout, "{},{},{},{} {}\n", box.min.x, box.min.y, size.x,
+                   size.y, samples);
+        stats["ask"].push_back({box.min.x, box.min.y, size.x, size.y, samples});
+    }
 }
 
 void run(const FinishCommand &options, const ToolContext &tool) {
@@ -158,7 +177,6 @@ void run(const FinishCommand &options, const ToolContext &tool) {
         picture.others.push_back(read_render(path, file, options, tool).image);
     if (options.neighbours > 0) picture.around = read_around(options, samples, file, tool);
     picture.gathered = std::move(file.image);
-    const auto halves = picture.rays.samples();
     if (picture.rays.missing() > 0)
         warn(tool,
              fmt::format(
@@ -170,7 +188,8 @@ void run(const FinishCommand &options, const ToolContext &tool) {
         tool.say(fmt::format("stay as gathered, because a render lacks them: {}",
                              fmt::join(finished.as_gathered, ", ")));
     append_history(file.header, tool, options.history);
-    const Stats stats = say_error(options, finished, halves, tool);
+    Stats stats = say_error(options, finished, tool);
+    if (!options.ask.empty()) ask(options, finished, file.header, stats);
     tell_clamped(tool.tell(), options.output,
                  write_picture(tool.tell(), options.colour, options.output,
                                in_type(shown(std::move(finished), options.show), options.type), file.header,

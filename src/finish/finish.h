@@ -22,8 +22,8 @@ struct LayerToFinish {
     Grid grid;
     Colours gathered;
     Halves rays;
-    std::array<double, 2> samples{1, 1}; // per pixel, > 0: of each render
-    std::vector<Halves> given = {};      // for each render: its denoised version, or the same picture twice
+    RayCounts samples = {};
+    std::vector<Halves> given = {}; // for each render: its denoised version, or the same picture twice
     Halves averaged = {}; // the rays with those of frames around (frames_around.h), for candidates; or empty
 };
 

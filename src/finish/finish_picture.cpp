@@ -3,6 +3,7 @@
 #include "base/channel_kind.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "finish/frames_around.h"
 #include "finish/tuning.h"
 #include "finish/window_means.h"
@@ -41,12 +42,18 @@ Values over(const Image &image, std::size_t channel, const Windows &windows) {
     return values;
 }
 
-// The pixels of the display window for which a render has no value. Its overscan is not part of the picture.
-std::size_t untold(const Values &values, const Windows &windows) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!is_told(values[i]) && windows.display.intersects(windows.pixel(i))) ++count;
-    return count;
+// How many samples each pixel of a render has, as its channel of counts tells.
+Values counts_of(const Render &render, const Windows &windows) {
+    for (std::size_t c = 0; c < render.image.channels.size(); ++c) {
+        const std::string name = lower_case(render.image.channels[c].name);
+        const bool part = name.ends_with("debug sample count.x");
+        if (!part && name != "samples" && name != "samplecount") continue;
+        Values counts = over(render.image, c, windows);
+        if (part)
+            for (float &count : counts) count *= float(render.samples);
+        return counts;
+    }
+    return Values(windows.grid().size(), float(render.samples));
 }
 
 void check_window(const Render &render, const Windows &windows) {
@@ -162,38 +169,71 @@ TwoHalves::TwoHalves(const Image &gathered)
         gathered_green_.assign(gathered.plane(green).begin(), gathered.plane(green).end());
     for (std::size_t c = 0; c < channels_.size(); ++c) has_[c] = is_finished(channels_[c]);
     for (auto &half : sums_) half.resize(channels_.size());
+    for (Values &counts : counts_) counts.assign(windows_.grid().size(), 0.0f);
 }
 
-bool TwoHalves::complete() const { return samples_[0] > 0 && samples_[1] > 0; }
+std::size_t TwoHalves::missing() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < counts_[0].size(); ++i)
+        if (!has_both(i) && windows_.display.intersects(windows_.pixel(i))) ++count;
+    return count;
+}
+
+RayCounts TwoHalves::samples() const {
+    RayCounts samples({0, 0}, counts_);
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < counts_[0].size(); ++i) {
+        if (!has_both(i)) continue;
+        ++pixels;
+        for (std::size_t k = 0; k < 2; ++k) samples.mean[k] += double(counts_[k][i]);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        samples.mean[k] /= double(std::max(pixels, std::size_t(1)));
+        for (std::size_t i = 0; i < counts_[k].size(); ++i)
+            if (!has_both(i)) samples.by_pixel[k][i] = float(samples.mean[k]);
+    }
+    return samples;
+}
 
 void TwoHalves::add(const Render &render) {
     check_window(render, windows_);
-    const std::size_t half = samples_[0] <= samples_[1] ? 0 : 1;
-    samples_[half] += render.samples;
-    const auto share = float(render.samples / samples_[half]); // 1 for the first render of a half
-    std::size_t missing = 0;
+    Values counts = counts_of(render, windows_);
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!has_[c]) continue;
         const std::size_t from = find_channel(render.image.channels, channels_[c].name);
         has_[c] = from != npos;
         if (!has_[c]) continue;
-        Values values = over(render.image, from, windows_);
-        missing = std::max(missing, untold(values, windows_));
-        Values &sum = sums_[half][c];
-        if (sum.empty())
-            sum = std::move(values);
-        else
-            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * (values[i] - sum[i]);
+        const Values values = over(render.image, from, windows_);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!is_told(values[i])) counts[i] = 0;
     }
-    missing_ += missing;
+    double first = 0, second = 0; // the samples that there are
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (!(is_told(counts[i]) && counts[i] > 0)) counts[i] = 0;
+        if (counts[i] > 0) first += double(counts_[0][i]), second += double(counts_[1][i]);
+    }
+    const std::size_t half = first <= second ? 0 : 1;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (!has_[c]) continue;
+        const Values values =
+            over(render.image, find_channel(render.image.channels, channels_[c].name), windows_);
+        Values &sum = sums_[half][c];
+        if (sum.empty()) sum.assign(values.size(), nothing);
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            const float before = counts_[half][i], share = counts[i] / (before + counts[i]);
+            if (counts[i] > 0) sum[i] = before > 0 ? sum[i] + share * (values[i] - sum[i]) : values[i];
+        }
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) counts_[half][i] += counts[i];
 }
 
 void TwoHalves::add_noisy(const Render &render) {
     check_window(render, windows_);
     if (const std::size_t from = find_channel(render.image.channels, rgb_names[1]); from != npos) {
         const Values values = over(render.image, from, windows_);
-        Noisy own{render.name, {values.begin(), values.end()}, render.samples};
-        for (const Noisy &other : noisy_) compare(other, own);
+        Noisy own{render.name, {values.begin(), values.end()}, render.samples, render.image.windows.data};
+        for (const Noisy &other : noisy_)
+            if (own.window.intersects(other.window)) compare(other, own);
         noisy_.push_back(std::move(own));
     }
     add(render);
@@ -211,6 +251,9 @@ void TwoHalves::compare(const Noisy &one, const Noisy &two) {
                         one.name, two.name));
         return;
     }
+    for (const Imath::V2i &corner :
+         {windows_.display.min, windows_.display.max}) // parts hold too little to tell
+        if (!one.window.intersects(corner) || !two.window.intersects(corner)) return;
     const double told = one.samples * two.samples / (one.samples + two.samples);
     for (const auto &[render, share] : {std::pair(&one, noise.of_each[0]), std::pair(&two, noise.of_each[1])})
         if (share < FinishTuning::little_noise * told / render->samples)
@@ -247,6 +290,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
                                      picture.rays.doubts().end());
             finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
+            finished.samples = std::move(layer.samples);
         }
         if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)
             for (float &alpha : result.picture[0]) alpha = std::clamp(alpha, 0.0f, 1.0f);
@@ -287,16 +331,15 @@ std::array<double, 2> mean_and_deviation(const Values &values, const Grid &grid)
 
 } // namespace
 
-ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays,
-                             const std::array<double, 2> &samples, const Grid &grid) {
-    const double n = samples[0], m = samples[1];
-    const auto noise_share = float(n * m / ((n + m) * (n + m)));
+ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays, const RayCounts &samples,
+                             const Grid &grid) {
     ErrorEstimate error;
     error.map.resize(grid.size());
     Values of_one(grid.size());
     parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
         for (std::size_t i = row * std::size_t(grid.width()); i < (row + 1) * std::size_t(grid.width());
              ++i) {
+            const float of_first = samples.share_of_first(i), noise_share = of_first * (1 - of_first);
             float sum = 0, sum_of_one = 0;
             for (std::size_t c = 0; c < finished.picture.size(); ++c) {
                 const float f = finished.of_one[0][c][i], g = finished.of_one[1][c][i];
@@ -323,16 +366,19 @@ std::optional<double> decibels(const ErrorEstimate &error) {
     return -10 * std::log10(error.mean);
 }
 
+double fall_of(const ErrorEstimate &error, const std::array<double, 2> &samples) {
+    const double all = samples[0] + samples[1], one = std::sqrt(samples[0] * samples[1]);
+    const double fall = std::log(std::max(error.of_one / error.mean, 1.0)) / std::log(all / one);
+    // Between a fall that is hardly noticeable and the best possible fall of noise.
+    return std::clamp(fall, 0.25, 1.0);
+}
+
 std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
                                      double goal) {
     const auto now = decibels(error);
     if (!now) return {};
     if (goal <= *now) return 1;
-    // Exponents between the best possible fall of noise and a fall that is hardly noticeable.
-    constexpr double fastest = 1, slowest = 0.25;
-    const double all = samples[0] + samples[1], one = std::sqrt(samples[0] * samples[1]);
-    const double fall = std::log(std::max(error.of_one / error.mean, 1.0)) / std::log(all / one);
-    return std::pow(10, (goal - *now) / 10 / std::clamp(fall, slowest, fastest));
+    return std::pow(10, (goal - *now) / 10 / fall_of(error, samples));
 }
 
 } // namespace sparselens

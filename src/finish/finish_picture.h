@@ -30,26 +30,44 @@ struct ErrorEstimate {
     double of_one = 0;             // the mean for pictures made of only one of the renders
 };
 
-ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays,
-                             const std::array<double, 2> &samples, const Grid &grid);
+ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays, const RayCounts &samples,
+                             const Grid &grid);
 
 // 10 log10(1 / error); empty if the estimate differs from 0 by less than twice its standard deviation.
 std::optional<double> decibels(const ErrorEstimate &error);
 
-// By which factor the rays must grow for a finished picture of `goal` dB, judged by how much the error falls from one
-// render to two; at least 1, empty if that cannot be determined.
+// The error falls as a power of the number of rays. This is minus the exponent, judged by how much the error falls from
+// one render to two: 1/4 to 1.
+double fall_of(const ErrorEstimate &error, const std::array<double, 2> &samples);
+
+// By which factor the rays must grow for a finished picture of `goal` dB; at least 1, empty if that cannot be determined.
 std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
                                      double goal);
 
-// A picture with the display window of the gathered one; `name` is its file, for messages.
+// Where more rays are needed. The error of a block of pixels falls as a power of its rays (fall_of()), so a picture has
+// the least error for its rays if each block has them in proportion to the error of one ray to the power
+// 1 / (1 + fall), and at least those that it has.
+struct AskedRays {
+    Values more; // samples that each pixel needs beyond those that it has
+    std::vector<std::pair<Imath::Box2i, int>>
+        rectangles; // a few that cost as much together: pixels of the grid, and an even number of samples
+};
+
+// `rays`: for each pixel on average, with those that it has; 0: as many as a mean squared error of `goal` takes.
+AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
+                   double goal = 0);
+
+// A picture with the display window of the gathered one; `name` is its file, for messages. A channel `samples` or
+// `sampleCount` tells how many samples each pixel has; Cycles' `Debug Sample Count.X` tells which part of `samples`.
 struct Render {
     std::string name;
     Image image;
     double samples = 1; // per pixel, > 0
 };
 
-// Two or more independent renders through the same lens, added up to two halves of nearly equal numbers of samples.
-// Pixels outside a render's data window, and pixels with a value that is not finite or above 1e8, stay as gathered.
+// Two or more independent renders through the same lens, added up to two halves: each goes where its pixels have fewer
+// samples. Pixels outside a render's data window, and pixels with a value that is not finite or above 1e8, have none of
+// it; pixels that a half lacks stay as gathered.
 class TwoHalves {
 public:
     explicit TwoHalves(const Image &gathered);
@@ -60,12 +78,10 @@ public:
     // the same seed, so the halves would not tell the noise. Other noise than samples make gives a doubt.
     void add_noisy(const Render &render);
     const std::vector<std::string> &doubts() const { return doubts_; } // for warnings
-    bool complete() const;                                             // whether both halves have a render
+    bool complete() const { return samples().mean[0] > 0; }            // whether pixels have both halves
 
-    std::array<double, 2> samples() const { return samples_; }
-    std::size_t missing() const {
-        return missing_;
-    } // pixels of the display window that stay as gathered, over all renders
+    RayCounts samples() const;   // the mean of pixels that have both halves; others count as that
+    std::size_t missing() const; // pixels of the display window that stay as gathered
     // The planes of a channel of the gathered picture, for both halves. Empty if a render lacks it. The caller takes
     // them.
     std::array<Values, 2> take(std::size_t channel);
@@ -76,16 +92,17 @@ private:
         std::string name;
         std::vector<half> green;
         double samples;
+        Imath::Box2i window;
     };
     void compare(const Noisy &one, const Noisy &two);
+    bool has_both(std::size_t i) const { return counts_[0][i] > 0 && counts_[1][i] > 0; }
 
     Windows windows_;
     std::vector<Channel> channels_;
     std::vector<half> gathered_green_;
     std::array<std::vector<Values>, 2> sums_; // by channel of the gathered picture; empty: not finished
     std::vector<bool> has_;
-    std::array<double, 2> samples_{0, 0};
-    std::size_t missing_ = 0;
+    std::array<Values, 2> counts_; // samples of each pixel
     std::vector<Noisy> noisy_;
     std::vector<std::string> doubts_;
 };
@@ -106,8 +123,9 @@ struct PictureToFinish {
 
 struct FinishedPicture {
     Image image;
-    Values kept;                          // for R, G and B: 1 as gathered, 0 as the rays
-    ErrorEstimate error;                  // for R, G and B
+    Values kept;         // for R, G and B: 1 as gathered, 0 as the rays
+    ErrorEstimate error; // for R, G and B
+    RayCounts samples;
     std::vector<std::string> warnings;    // mistakes in R, G and B, and doubts about the renders
     std::vector<std::string> as_gathered; // names of light channels that the renders lack
 };

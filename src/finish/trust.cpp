@@ -41,16 +41,15 @@ struct Measures {
 std::size_t class_at(float place) { return std::min(std::size_t(place), trust_classes - 1); }
 
 // Logarithms of energy over noise. `noise`: the squared difference of both renders.
-std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid,
-                                    const std::array<double, 2> &samples) {
-    const auto [n, m] = samples;
-    const std::array<double, 3> of_picture{n, m, n + m};
+std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid) {
     ring_sum(noise, grid);
     std::array<Values, 3> ratios = cells.energy;
     for (std::size_t k = 0; k < 3; ++k) {
         soft_mean(ratios[k], grid, FinishTuning::energy_radius);
-        const auto of_one = float(n * m / (n + m) / of_picture[k]) / (outer - inner);
         for_cells(grid, [&](std::size_t i) {
+            const double n = cells.samples[0][i], m = cells.samples[1][i];
+            const std::array<double, 3> of_picture{n, m, n + m};
+            const auto of_one = float(n * m / (n + m) / of_picture[k]) / (outer - inner);
             ratios[k][i] = std::log((std::max(ratios[k][i], 0.0f) + least_energy) /
                                     (std::max(noise[i], 0.0f) * of_one + least_energy));
         });
@@ -60,8 +59,7 @@ std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, con
 
 // The confirmed sum in the ring, in standard deviations of the rest that the tests leave: for each test, and for both
 // together.
-std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
-                                    const std::array<double, 2> &samples) {
+std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid) {
     std::array<Values, 2> sums = cells.confirmed, variances = cells.left;
     for (std::size_t k = 0; k < 2; ++k) {
         ring_sum(sums[k], grid);
@@ -70,10 +68,10 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
     const auto deviations = [](float sum, float variance) {
         return sum / std::sqrt(std::max(variance, 1e-30f));
     };
-    const auto n = float(samples[0]), m = float(samples[1]);
     std::array<Values, 3> found;
     for (Values &values : found) values.resize(grid.size());
     for_cells(grid, [&](std::size_t i) {
+        const float n = cells.samples[0][i], m = cells.samples[1][i];
         for (std::size_t k = 0; k < 2; ++k) found[k][i] = deviations(sums[k][i], variances[k][i]);
         found[2][i] =
             deviations(m * sums[0][i] + n * sums[1][i], m * m * variances[0][i] + n * n * variances[1][i]);
@@ -82,17 +80,14 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
 }
 
 // The share of each picture's change that is believed, for each cell.
-std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
-                              const std::array<double, 2> &samples, Among among) {
+std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells, Among among) {
     const Grid &grid = cells.grid();
-    Measures measures{energy_ratios(evidence, evidence.noise, grid, samples),
-                      confirmations(evidence, grid, samples)};
+    Measures measures{energy_ratios(evidence, evidence.noise, grid), confirmations(evidence, grid)};
     Classes by_energy(trust_classes, -largest_energy_ratio, largest_energy_ratio),
         by_confirmation(trust_classes, -largest_confirmation, largest_confirmation);
-    const std::array testing{samples[1], samples[0]};
     for (std::size_t i = 0; i < grid.size(); ++i)
         for (std::size_t k = 0; k < 2; ++k) {
-            const double energy = double(evidence.energy[k][i]) * testing[k];
+            const double energy = double(evidence.energy[k][i]) * double(evidence.samples[1 - k][i]);
             by_energy.add(measures.energy_ratio[k][i], energy);
             by_confirmation.add(measures.confirmed[k][i], energy);
         }
@@ -108,16 +103,17 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
     const Tiles blocks(grid.box(), FinishTuning::block_px / FinishTuning::trust_cell);
     std::vector<ClassSums> of_one(blocks.count()), of_all(blocks.count());
     const auto pixels = double(cells.side() * cells.side());
-    const double of_both = samples[0] * samples[1] / (samples[0] + samples[1]);
     parallel_for(blocks.count(), [&](std::size_t b) {
         const Imath::Box2i box = blocks.box(b);
         for (int y = box.min.y; y <= box.max.y; ++y)
             for (int x = box.min.x; x <= box.max.x; ++x) {
                 const std::size_t i = grid.index(x, y);
+                const std::array<double, 2> samples{evidence.samples[0][i], evidence.samples[1][i]};
+                const double all = samples[0] + samples[1], of_both = samples[0] * samples[1] / all;
                 for (std::size_t k = 0; k < 2; ++k) {
                     const std::size_t cell = class_at(measures.energy_ratio[k][i]) * trust_classes +
                                              class_at(measures.confirmed[k][i]);
-                    const double count = pixels * testing[k];
+                    const double count = pixels * samples[1 - k];
                     // The part of a change that is noise, as shown by the difference between the renders' changes,
                     // costs more.
                     const double noise = double(evidence.spread[i]) * of_both / samples[k];
@@ -129,7 +125,7 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                     };
                     add(of_one[b], noise);
                     // The noise of the picture of both is that of two renders with half of all samples each.
-                    add(of_all[b], double(evidence.spread[i]) * of_both * 2 / (samples[0] + samples[1]));
+                    add(of_all[b], double(evidence.spread[i]) * of_both * 2 / all);
                 }
             }
     });
@@ -152,9 +148,9 @@ FOR_PROCESSORS void move_towards(float *__restrict picture, const float *__restr
     for (std::size_t i = 0; i < count; ++i) picture[i] += share[i] * (candidate[i] - picture[i]);
 }
 
-FOR_PROCESSORS void mean_of(const float *__restrict first, const float *__restrict second, float of_first,
-                            float *__restrict mean, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) mean[i] = second[i] + of_first * (first[i] - second[i]);
+FOR_PROCESSORS void mean_of(const float *__restrict first, const float *__restrict second,
+                            const float *__restrict of_first, float *__restrict mean, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) mean[i] = second[i] + of_first[i] * (first[i] - second[i]);
 }
 
 } // namespace
@@ -163,18 +159,18 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
               Among among) {
     const Cells cells(evidence.grid, FinishTuning::trust_cell);
     const std::array<Values, 3> shares =
-        trusted(evidence_of(pictures, candidate, evidence, cells), cells, evidence.samples, among);
+        trusted(evidence_of(pictures, candidate, evidence, cells), cells, among);
     const auto width = std::size_t(evidence.grid.width());
-    const auto of_first = float(evidence.samples[0] / (evidence.samples[0] + evidence.samples[1]));
     parallel_for(std::size_t(evidence.grid.height()), [&](std::size_t y) {
-        std::vector<float> share, both(width);
+        std::vector<float> share, both(width), of_first(width);
+        for (std::size_t x = 0; x < width; ++x) of_first[x] = evidence.samples.share_of_first(y * width + x);
         for (std::size_t k = 0; k < 3; ++k) {
             cells.interpolate(shares[k], y, share);
             for (std::size_t c = 0; c < pictures[k].size(); ++c) {
                 const float *offered = k < 2 ? &candidate[k][c][y * width] : both.data();
                 if (k == 2)
-                    mean_of(&candidate[0][c][y * width], &candidate[1][c][y * width], of_first, both.data(),
-                            width);
+                    mean_of(&candidate[0][c][y * width], &candidate[1][c][y * width], of_first.data(),
+                            both.data(), width);
                 move_towards(&pictures[k][c][y * width], offered, share.data(), width);
             }
         }
@@ -190,12 +186,13 @@ struct RunEvidence {
     std::array<Run, 2> confirmed{}, left{}, removed{};
     Run spread{}, noise{};
     Run light{}, variance{}; // of the light that the rays show above the picture
+    std::array<Run, 2> samples{};
+    Run of_first{}; // the share of the first
 };
 
 struct Pixels {
     std::array<const float *, 3> pictures;
     std::array<const float *, 2> candidate, rays;
-    std::array<float, 2> shares; // of the samples
 };
 
 // Approximately max(a, b).
@@ -214,7 +211,6 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
     const float *a0 = pixels.pictures[0], *a1 = pixels.pictures[1], *a2 = pixels.pictures[2];
     const float *b0 = pixels.candidate[0], *b1 = pixels.candidate[1];
     const float *x = pixels.rays[0], *y = pixels.rays[1];
-    const auto [first, second] = pixels.shares;
     for (std::size_t i = 0; i < count; ++i) {
         const Tested t0 = tested(a0[i], b0[i], y[i]), t1 = tested(a1[i], b1[i], x[i]);
         sums->energy[0][i] += t0.energy;
@@ -227,6 +223,7 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
         sums->removed[1][i] += t1.removed;
     }
     for (std::size_t i = 0; i < count; ++i) {
+        const float first = sums->of_first[i], second = 1 - first;
         const float b2 = first * b0[i] + second * b1[i], weight = seen(larger(a2[i], b2));
         const float apart = (b0[i] - a0[i]) - (b1[i] - a1[i]), difference = x[i] - y[i];
         sums->energy[2][i] += weight * (b2 - a2[i]) * (b2 - a2[i]);
@@ -234,7 +231,8 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
         sums->noise[i] += seen(a2[i]) * difference * difference;
         const float above = first * x[i] + second * y[i] - a2[i];
         sums->light[i] += positive(above);
-        sums->variance[i] += difference * difference * (0.5f + std::copysign(0.5f, above));
+        sums->variance[i] +=
+            first * sums->samples[1][i] * difference * difference * (0.5f + std::copysign(0.5f, above));
     }
 }
 
@@ -248,6 +246,7 @@ void for_planes(CellEvidence &cells, RunEvidence &run, const Of &of) {
         of(cells.confirmed[k], run.confirmed[k]);
         of(cells.left[k], run.left[k]);
         of(cells.removed[k], run.removed[k]);
+        of(cells.samples[k], run.samples[k]);
     }
     of(cells.spread, run.spread);
     of(cells.noise, run.noise);
@@ -257,14 +256,11 @@ void for_planes(CellEvidence &cells, RunEvidence &run, const Of &of) {
 
 CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const RayEvidence &evidence,
                          const Cells &cells) {
-    const auto [n, m] = evidence.samples;
-    const std::array shares{float(n / (n + m)), float(m / (n + m))};
     const auto width = std::size_t(cells.pixels().width());
     const auto pixels_at = [&](std::size_t c, std::size_t i) -> Pixels {
         return {{&pictures[0][c][i], &pictures[1][c][i], &pictures[2][c][i]},
                 {&candidate[0][c][i], &candidate[1][c][i]},
-                {&evidence.rays[0][c][i], &evidence.rays[1][c][i]},
-                shares};
+                {&evidence.rays[0][c][i], &evidence.rays[1][c][i]}};
     };
     CellEvidence found;
     RunEvidence none;
@@ -278,8 +274,13 @@ CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const Ra
         for (std::size_t y = begin; y < end; ++y)
             for (std::size_t x = 0; x < width; x += run_length) {
                 RunEvidence run;
+                const std::size_t first = y * width + x, count = std::min(run_length, width - x);
+                for (std::size_t i = 0; i < count; ++i) {
+                    for (std::size_t k = 0; k < 2; ++k) run.samples[k][i] = evidence.samples.at(first + i)[k];
+                    run.of_first[i] = evidence.samples.share_of_first(first + i);
+                }
                 for (std::size_t c = 0; c < pictures[0].size(); ++c)
-                    add_channel(pixels_at(c, y * width + x), &run, std::min(run_length, width - x));
+                    add_channel(pixels_at(c, first), &run, count);
                 for (Run &left : run.left)
                     for (float &v : left) v *= v;
                 for_planes(found, run, [&](Values &plane, Run &values) {
@@ -295,7 +296,7 @@ CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const Ra
         light.sum += of_row.sum;
         light.variance += of_row.variance;
     }
-    found.event_height = light.sum > 0 ? n * m / (n + m) * light.variance / light.sum : 0;
+    found.event_height = light.sum > 0 ? light.variance / light.sum : 0;
     return found;
 }
 

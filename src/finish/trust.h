@@ -21,7 +21,7 @@ namespace sparselens {
 // Two independent renders of the same pixels.
 struct RayEvidence {
     const Halves &rays;
-    std::array<double, 2> samples; // per pixel, > 0: how much each render counts
+    const RayCounts &samples;
     Grid grid;
 };
 
@@ -38,6 +38,7 @@ struct CellEvidence {
         removed;   // (B - A)^2 times the light that B takes away, for the variance of such light
     Values spread; // the squared difference between the changes by both renders
     Values noise;  // squared difference of the renders
+    std::array<Values, 2> samples; // of each render
     // How much light a bright event brings to one sample: the variance over the mean, as for Poisson-distributed
     // events, of all light that the rays show above the picture. Light that both renders show alike is not an event,
     // and adds only to the mean.
@@ -46,11 +47,6 @@ struct CellEvidence {
 
 CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const RayEvidence &evidence,
                          const Cells &cells);
-
-// Combines values made from each render: their mean, weighted by samples.
-inline float of_both(const std::array<double, 2> &samples, float first, float second) {
-    return float((samples[0] * double(first) + samples[1] * double(second)) / (samples[0] + samples[1]));
-}
 
 // The cells that share one degree of belief in a candidate: those of a class, or all cells of the picture.
 enum class Among { classes, whole_picture };

@@ -99,6 +99,11 @@ struct FinishTuning {
 
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;
+    // Side, in pixels, of the blocks that ask for rays; into how many rectangles a picture is cut at most; and the share
+    // of its cost that a cut must save.
+    static constexpr int ask_block_px = 8;
+    static constexpr std::size_t most_pieces = 16;
+    static constexpr double least_saving = 1e-3;
     // Darker values count as this dark when an error is judged on a display, because its tone curve has no slope at 0.
     static constexpr float darkest = 0.003f;
 };

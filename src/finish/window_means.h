@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -18,6 +19,24 @@ namespace sparselens {
 using Values = LargeArray<float>;      // one value per pixel
 using Colours = std::vector<Values>;   // one to three channels
 using Halves = std::array<Colours, 2>; // the same for two independent renders
+
+// How many samples the pixels of two independent renders have, > 0.
+struct RayCounts {
+    RayCounts(const std::array<double, 2> &means = {1, 1}, std::array<Values, 2> of_pixels = {})
+        : mean(means), by_pixel(std::move(of_pixels)) {}
+
+    std::array<double, 2> mean;
+    std::array<Values, 2> by_pixel; // empty: the same everywhere
+
+    std::array<float, 2> at(std::size_t i) const {
+        if (by_pixel[0].empty()) return {float(mean[0]), float(mean[1])};
+        return {by_pixel[0][i], by_pixel[1][i]};
+    }
+    float share_of_first(std::size_t i) const {
+        const auto [n, m] = at(i);
+        return n / (n + m);
+    }
+};
 
 // max(v, 0), exactly, without a branch, so that compilers can process several values at once.
 inline float positive(float v) { return (v + std::abs(v)) / 2; }

@@ -37,8 +37,18 @@ TEST(ErrorEstimate, LiesNearTheTrueError) {
 // render, n m / (n + m)^2 of it in the picture of both.
 TEST(ErrorEstimate, TheNoiseThatIsLeftDependsOnTheSamples) {
     const Colours zero(3, Values(grid.size(), 0.0f)), one(3, Values(grid.size(), 1.0f));
-    const ErrorEstimate error = estimate_error({one, {one, zero}, {}}, {one, one}, {64, 16}, grid);
+    const ErrorEstimate error =
+        estimate_error({one, {one, zero}, {}}, {one, one}, std::array<double, 2>{64, 16}, grid);
     EXPECT_NEAR(error.mean / error.of_one, 64.0 * 16 / (80 * 80) / 0.5, 1e-6);
+}
+
+TEST(ErrorEstimate, EachPixelHasItsSamples) {
+    const Colours zero(3, Values(grid.size(), 0.0f)), one(3, Values(grid.size(), 1.0f));
+    RayCounts samples({1, 1}, {Values(grid.size(), 64.0f), Values(grid.size(), 64.0f)});
+    for (std::size_t i = 0; i < grid.size() / 2; ++i) samples.by_pixel[1][i] = 16;
+    const ErrorEstimate error = estimate_error({one, {one, zero}, {}}, {one, one}, samples, grid);
+    const double share = double(grid.size() / 2) / double(grid.size());
+    EXPECT_NEAR(error.mean / error.of_one, (0.16 * share + 0.25 * (1 - share)) / 0.5, 1e-6);
 }
 
 // The estimate's map is large where the picture is wrong.
@@ -61,7 +71,7 @@ TEST(ErrorEstimate, WhatIsTooSmallToTellIsNotTold) {
     const LayerToFinish layer = layer_of(grid, truth, truth, {4, 4});
     const ErrorEstimate error = estimated(layer, {truth, {truth, truth}, {}});
     EXPECT_FALSE(decibels(error));
-    EXPECT_FALSE(times_the_rays(error, layer.samples, 60));
+    EXPECT_FALSE(times_the_rays(error, layer.samples.mean, 60));
 }
 
 TEST(ErrorEstimate, SaysHowManyRaysAGoalTakes) {

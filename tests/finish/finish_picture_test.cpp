@@ -44,7 +44,7 @@ TEST(TwoHalves, ThreeRendersAreSharedOutEvenly) {
     halves.add(render(2, 8));
     halves.add(render(3, 24));
     EXPECT_TRUE(halves.complete());
-    EXPECT_EQ(halves.samples(), (std::array<double, 2>{32, 32}));
+    EXPECT_EQ(halves.samples().mean, (std::array<double, 2>{32, 32}));
     const auto [first, second] = halves.take(1);
     const Image one = render(1, 32).image, two = render(2, 8).image, three = render(3, 24).image;
     for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -57,7 +57,66 @@ TEST(TwoHalves, ThreeRendersAreSharedOutEvenly) {
 TEST(TwoHalves, EqualRendersTakeTurns) {
     TwoHalves halves(picture_of(truth));
     for (std::uint32_t seed = 1; seed <= 4; ++seed) halves.add(render(seed));
-    EXPECT_EQ(halves.samples(), (std::array<double, 2>{32, 32}));
+    EXPECT_EQ(halves.samples().mean, (std::array<double, 2>{32, 32}));
+}
+
+// Renders of a part go where it has fewer samples, and count there alone.
+TEST(TwoHalves, RendersOfAPartAddTheirSamplesThere) {
+    TwoHalves halves(picture_of(truth));
+    halves.add(render(1, 10));
+    halves.add(render(2, 10));
+    const Imath::Box2i left({0, 0}, {31, 47}), right({32, 0}, {63, 47});
+    const auto add_part = [&](std::uint32_t seed, double samples, const Imath::Box2i &box) {
+        Render part = render(seed, samples);
+        part.image = crop(part.image, box);
+        halves.add(part);
+        return part.image;
+    };
+    const Image more = add_part(3, 30, left);
+    add_part(4, 20, right);
+    add_part(5, 30, left);
+    EXPECT_EQ(halves.missing(), 0u);
+    const RayCounts samples = halves.samples();
+    EXPECT_EQ(samples.mean, (std::array<double, 2>{35, 25}));
+    EXPECT_EQ(samples.at(grid.index(31, 5)), (std::array<float, 2>{40, 40}));
+    EXPECT_EQ(samples.at(grid.index(32, 5)), (std::array<float, 2>{30, 10}));
+    const Image one = render(1, 10).image;
+    const auto first = halves.take(1)[0];
+    EXPECT_NEAR(first[grid.index(20, 9)], 0.25f * one.at(1, 20, 9) + 0.75f * more.at(1, 20, 9), 1e-5f);
+}
+
+// A channel of counts: whole numbers, or Cycles' part of the samples.
+TEST(TwoHalves, PixelsHaveAsManySamplesAsTheRenderTells) {
+    for (const auto &[name, one] : {std::pair("samples", 0.25f),
+                                    {"sampleCount", 0.25f},
+                                    {"ViewLayer.Debug Sample Count.X", 1.0f / 64}}) {
+        std::vector<Channel> channels = rgba_channels();
+        channels.push_back({name, PixelType::float32});
+        Render counted{"rays.exr", Image(windows, channels), 16};
+        for (std::size_t c = 0; c < 3; ++c) std::ranges::copy(truth[c], counted.image.plane(c).begin());
+        for (std::size_t i = 0; i < grid.size(); ++i) counted.image.plane(4)[i] = one * float(i % 3);
+        TwoHalves halves(picture_of(truth));
+        halves.add(counted);
+        halves.add(render(2));
+        EXPECT_EQ(halves.missing(), grid.size() / 3) << name;
+        EXPECT_EQ(halves.samples().at(1), (std::array<float, 2>{0.25f, 16})) << name;
+        EXPECT_EQ(halves.samples().at(2), (std::array<float, 2>{0.5f, 16})) << name;
+        EXPECT_EQ(halves.samples().at(0), (std::array<float, 2>{0.375f, 16}))
+            << "the mean, where it has none";
+    }
+}
+
+TEST(TwoHalves, PartsAreComparedWhereTheyMeet) {
+    TwoHalves halves(picture_of(truth));
+    const auto add_part = [&](std::uint32_t seed, const Imath::Box2i &box) {
+        Render part = render(seed);
+        part.image = crop(part.image, box);
+        halves.add_noisy(part);
+    };
+    add_part(1, {{0, 0}, {31, 47}});
+    add_part(1, {{32, 0}, {63, 47}});
+    EXPECT_THROW(add_part(1, {{8, 4}, {63, 47}}), Error);
+    add_part(2, {{8, 4}, {63, 47}});
 }
 
 TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
@@ -93,7 +152,7 @@ TEST(TwoHalves, TheSameNoiseTwiceIsAnErrorThatNamesBoth) {
         EXPECT_EQ(std::string(error.what()),
                   "again.exr: has the same noise as rays.exr: render each with a seed of its own");
     }
-    EXPECT_EQ(halves.samples(), (std::array<double, 2>{16, 16}));
+    EXPECT_EQ(halves.samples().mean, (std::array<double, 2>{16, 16}));
     Render constant{"constant.exr", picture_of(Colours(3, Values(grid.size(), 0.5f)))}; // it cannot tell
     halves.add_noisy(constant);
     halves.add_noisy(constant);
@@ -155,6 +214,7 @@ TEST(FinishPicture, CountsThePixelsThatAreMissing) {
     Render cut = render(1);
     cut.image = crop(cut.image, {{0, 0}, {31, 47}});
     halves.add(cut);
+    halves.add(render(2));
     EXPECT_EQ(halves.missing(), 32u * 48u);
 }
 
@@ -168,7 +228,7 @@ TEST(FinishPicture, OverscanIsNotMissing) {
         for (int y = 0; y < grid.height(); ++y)
             for (int x = 0; x < grid.width(); ++x) gathered.at(c, x, y) = within.at(c, x, y);
     TwoHalves halves(gathered);
-    halves.add(render(1));
+    for (const std::uint32_t seed : {1, 2}) halves.add(render(seed));
     EXPECT_EQ(halves.missing(), 0u);
 }
 

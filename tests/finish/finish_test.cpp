@@ -20,7 +20,7 @@ TEST(Finish, WhatIsWrongGetsNearerThanBoth) {
     const Colours wrong = blurred(truth, grid, 2);
     for (const double samples : {8.0, 40.0, 160.0}) {
         const LayerToFinish layer = layer_of(grid, truth, wrong, {samples, samples});
-        const double rays = decibels_of(mean_of(layer.rays, layer.samples), truth);
+        const double rays = decibels_of(mean_of(layer.rays, layer.samples.mean), truth);
         EXPECT_GT(decibels_of(finished(layer).picture, truth),
                   std::max(rays, decibels_of(wrong, truth)) + 0.5)
             << samples;
@@ -41,7 +41,7 @@ TEST(Finish, AGatheredPictureOfAnotherSceneCostsLittle) {
 TEST(Finish, ManyRaysDecide) {
     const LayerToFinish layer = layer_of(grid, truth, synthetic_truth(grid, 1), {2048, 2048});
     EXPECT_GT(decibels_of(finished(layer).picture, truth),
-              decibels_of(mean_of(layer.rays, layer.samples), truth) - 0.05);
+              decibels_of(mean_of(layer.rays, layer.samples.mean), truth) - 0.05);
 }
 
 // The brighter a pixel, the rarer its ray: a pixel that is bright in only one render must not stay.

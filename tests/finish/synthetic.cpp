@@ -46,7 +46,8 @@ Colours mean_of(const Halves &rays, const std::array<double, 2> &samples) {
     Colours mean = rays[0];
     for (std::size_t c = 0; c < mean.size(); ++c)
         for (std::size_t i = 0; i < mean[c].size(); ++i)
-            mean[c][i] = of_both(samples, rays[0][c][i], rays[1][c][i]);
+            mean[c][i] = float((samples[0] * double(rays[0][c][i]) + samples[1] * double(rays[1][c][i])) /
+                               (samples[0] + samples[1]));
     return mean;
 }
 

@@ -103,11 +103,57 @@ TEST(CellEvidence, WeighsRendersByTheirSamples) {
     const Grid few(8, 4);
     const Values none(few.size(), 0.0f), one(few.size(), 1.0f);
     const Halves halves{Colours{one}, Colours{none}};
-    const CellEvidence found =
-        evidence_of({Colours{none}, Colours{none}, Colours{none}}, halves, {halves, {3, 1}, few}, {few, 2});
+    const CellEvidence found = evidence_of({Colours{none}, Colours{none}, Colours{none}}, halves,
+                                           {halves, std::array<double, 2>{3, 1}, few}, {few, 2});
     EXPECT_FLOAT_EQ(found.energy[2][0], seen(0.75f) * 0.75f * 0.75f);
     // n m / (n + m) of the squared difference, over the light.
     EXPECT_DOUBLE_EQ(found.event_height, 0.75 / 0.75);
+}
+
+TEST(CellEvidence, EachPixelHasItsSamples) {
+    const Grid few(8, 4);
+    const Values none(few.size(), 0.0f), one(few.size(), 1.0f);
+    const Halves halves{Colours{one}, Colours{none}};
+    RayCounts samples({1, 1}, {Values(few.size(), 6.0f), Values(few.size(), 2.0f)});
+    for (std::size_t i = 0; i < few.size(); ++i)
+        if (few.pixel(i).x >= 4) {
+            samples.by_pixel[0][i] = 1;
+            samples.by_pixel[1][i] = 3;
+        }
+    const CellEvidence found =
+        evidence_of({Colours{none}, Colours{none}, Colours{none}}, halves, {halves, samples, few}, {few, 2});
+    EXPECT_FLOAT_EQ(found.energy[2][0], seen(0.75f) * 0.75f * 0.75f);
+    EXPECT_FLOAT_EQ(found.energy[2][3], seen(0.25f) * 0.25f * 0.25f);
+    EXPECT_FLOAT_EQ(found.samples[0][0], 6);
+    EXPECT_FLOAT_EQ(found.samples[1][3], 3);
+    // n m / (n + m) of the squared difference, over the light: 3/2 and 3/4, over 3/4 and 1/4.
+    EXPECT_FLOAT_EQ(float(found.event_height), 2.25f);
+}
+
+// The noise of one sample must not hide what 64 prove in a quarter of the picture.
+TEST(Trust, ManySamplesProveMore) {
+    const Colours truth = synthetic_truth(grid), wrong = blurred(truth, grid, 3);
+    LayerToFinish layer = layer_of(grid, truth, wrong, {1, 1}, 3);
+    const LayerToFinish many = layer_of(grid, truth, wrong, {64, 64}, 4);
+    RayCounts counts({1, 1}, {Values(grid.size(), 1.0f), Values(grid.size(), 1.0f)});
+    const auto in_quarter = [](std::size_t i) { return grid.pixel(i).x < 40; };
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        if (!in_quarter(i)) continue;
+        for (std::size_t k = 0; k < 2; ++k) {
+            counts.by_pixel[k][i] = 64;
+            for (std::size_t c = 0; c < 3; ++c) layer.rays[k][c][i] = many.rays[k][c][i];
+        }
+    }
+    const auto decibels_of_quarter = [&](const Colours &picture) {
+        Colours quarter = truth;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < grid.size(); ++i)
+                if (in_quarter(i)) quarter[c][i] = picture[c][i];
+        return decibels_of(quarter, truth);
+    };
+    const double untold = decibels_of_quarter(finished(layer).picture);
+    layer.samples = counts;
+    EXPECT_GT(decibels_of_quarter(finished(layer).picture), untold + 4);
 }
 
 TEST(Trust, ThreadsDoNotMatter) {

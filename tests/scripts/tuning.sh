@@ -68,7 +68,6 @@ match/measure_lens.h quadratic_terms
 match/smooth_keys.cpp second
 finish/window_means.h run_length
 finish/window_means.cpp bins
-finish/finish_picture.cpp fastest slowest
 finish/finish_picture.cpp largest
 finish/finish.cpp least_square
 finish/window_means.cpp side

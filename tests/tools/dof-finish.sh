@@ -69,6 +69,36 @@ exits 0 "$finish" gathered.exr $one $two --denoised $truth $truth -o denoised.ex
 same denoised.exr other.exr "--denoised and --gathered of the same pictures"
 fails_saying 2 '--denoised.*1 pictures for 2 renders' "$finish" gathered.exr $one $two -o x.exr --denoised $one
 
+# --ask: more rays where they are needed. Renders of the rectangles, half of the samples each, make a better picture than
+# as many rays everywhere would, and two renders with a channel of counts make the same as many of parts.
+exits 0 "$finish" gathered.exr $one $two -o draft.exr --ask mask.exr --rays 160 --stats ask.json
+same draft.exr out.exr "--ask changes no picture"
+cp stdout asked
+grep -Eqx '[0-9]+,[0-9]+,[0-9]+,[0-9]+ [0-9]+' asked || fail "--ask: $(cat asked)"
+[ "$(wc -l <asked)" -le 16 ] || fail "--ask: many rectangles: $(cat asked)"
+holds "$(picture sum mask.exr samples) / 14400 - 80 < 0.01 && $(picture sum mask.exr samples) / 14400 - 80 > -0.01" "--ask: the mask has the rest of the budget"
+holds "$(awk -F '[, ]' '{ n += $3 * $4 * $5 } END { print n / 14400 }' asked) - 80 < 2" "--ask: rectangles within the budget"
+grep -q "\"ask\":\[\[$(sed -n '1s/ /,/p' asked)\]" ask.json || fail "--ask --stats: $(cat ask.json)"
+exits 0 "$bin/dof-trace" fence --size 160x90 --views 0 --halves 400 --seed 9 -d float -o dear
+parts=() counts=40,40
+while IFS=', ' read -r x y width height _; do
+    for k in 1 2; do
+        oiiotool dear/rays_$k.exr --crop "${width}x$height+$x+$y" -o "part_${x}_${y}_$k.exr"
+        parts+=("part_${x}_${y}_$k.exr") counts+=,200
+    done
+done <asked
+exits 0 "$finish" gathered.exr $one $two "${parts[@]}" -o parts.exr --samples $counts
+holds "$(decibels parts.exr $truth) > $db + 0.3" "--ask: $(decibels parts.exr $truth) with parts"
+[ -z "$(cat stderr)" ] || fail "warns of parts: $(cat stderr)"
+for k in 1 2; do
+    oiiotool fence/rays_$k.exr --ch R,G,B,A,samples=40 -o counted_$k.exr
+done
+exits 0 "$finish" gathered.exr counted_1.exr counted_2.exr -o counted.exr --samples 7,3
+same counted.exr out.exr "a channel of samples comes before --samples"
+fails_saying 2 '--ask.*give --rays or --goal' "$finish" gathered.exr $one $two -o x.exr --ask mask.exr
+fails_saying 2 '--rays.*--ask' "$finish" gathered.exr $one $two -o x.exr --rays 160
+fails_saying 2 '--rays 80: the renders have 80 already' "$finish" gathered.exr $one $two -o x.exr --ask mask.exr --rays 80
+
 # Frames, pipes, pictures for the screen, types, file names.
 for frame in 1 2; do cp gathered.exr g.000$frame.exr && cp $one a.000$frame.exr && cp $two b.000$frame.exr; done
 exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2
@@ -98,6 +128,7 @@ exits 0 "$finish" gathered.exr $one $two -o told.exr --no-history
 if history told.exr | grep -q dof-finish; then fail "--no-history: $(history told.exr)"; fi
 export SPARSELENS_NO_HISTORY=1
 fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one b.0001.exr -o b.0001.exr
+fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one b.0001.exr -o x.exr --ask b.0001.exr --rays 160
 for input in "--denoised $one b.0001.exr" --gathered=b.0001.exr; do
     fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
 done

@@ -13,6 +13,8 @@ namespace sparselens {
 namespace {
 
 void check(const FinishCommand &options) {
+    if (!options.ask.empty() && options.rays == 0 && !options.goal)
+        throw CLI::ValidationError("--ask", "how good or how dear? give --rays or --goal, too");
     if (!options.samples.empty() && options.samples.size() != options.renders.size())
         throw CLI::ValidationError("--samples", fmt::format("{} numbers for {} renders: give one for each",
                                                             options.samples.size(), options.renders.size()));
@@ -71,6 +73,18 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
     app.add_option("--goal", options.goal, "Also say how many rays a picture of this many dB takes")
         ->type_name("DB")
         ->check(number(above_0));
+    CLI::Option *ask =
+        app.add_option(
+               "--ask", options.ask,
+               "Also write how many more samples each pixel needs, and print rectangles that need as many: "
+               "X,Y,WIDTH,HEIGHT SAMPLES, for two renders together")
+            ->type_name("MASK.exr");
+    app.add_option(
+           "--rays", options.rays,
+           "For --ask: rays per pixel on average, with those of the renders (default: as --goal takes)")
+        ->type_name("N")
+        ->needs(ask)
+        ->check(number(above_0));
     add_parameters(app, output_colour_parameters(), options.colour);
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
@@ -81,6 +95,8 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
               {"Finish a sequence with the renders of two frames before and after each frame",
                "dof-finish picture.####.exr rays_1.####.exr rays_2.####.exr -o final.####.exr --frames 1-3 "
                "--neighbours 2"},
+              {"Say where more rays are worth most, for 80 rays per pixel on average",
+               "dof-finish picture.exr rays_1.exr rays_2.exr -o draft.exr --ask mask.exr --rays 80"},
               {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
                                              "--show trust"}});
     app.final_callback([&options] { check(options); });

@@ -19,6 +19,8 @@ struct FinishCommand {
     std::vector<double> samples; // of each render; empty: from their headers
     int neighbours = 0;          // frames before and after that are used
     std::optional<double> goal;  // dB
+    std::string ask;             // the file for a mask of samples; empty: none
+    double rays = 0; // that --ask may give, per pixel, with those of the renders; 0: as `goal` takes
     ShowFinished show = ShowFinished::picture;
     ColourOptions colour; // for the output
     std::optional<PixelType> type;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array output_options{"--output", "--depth-out", "--cameras"};
+constexpr std::array output_options{"--output", "--depth-out", "--cameras", "--ask"};
 constexpr std::array input_options{
     "--view", "--camera", "--depth-file", "--center",   "--holdout",  "--colorconfig", "--regions",
     "--plan", "--lens",   "--aperture",   "--denoised", "--gathered", "--recolor",     "--shutter-curve"};

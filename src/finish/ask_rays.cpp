@@ -1,0 +1,123 @@
+#include "finish/finish_picture.h"
+#include "finish/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sparselens {
+
+namespace {
+
+// Pixels that get the same number of rays: how many, the sum of their errors with one ray each, and that of the samples
+// that they have.
+struct Part {
+    double pixels = 0, error = 0, samples = 0;
+
+    Part &operator+=(const Part &other) {
+        pixels += other.pixels;
+        error += other.error;
+        samples += other.samples;
+        return *this;
+    }
+};
+
+// `scale`: the rays that a pixel of error 1 needs.
+struct Plan {
+    double fall, scale;
+
+    double needed(const Part &part) const { // rays per pixel
+        return std::max(part.samples / part.pixels,
+                        scale * std::pow(part.error / part.pixels, 1 / (1 + fall)));
+    }
+    double error(const Part &part) const { return part.error * std::pow(needed(part), -fall); }
+    // Error and rays, the least for the rays that are needed.
+    double cost(const Part &part) const {
+        return error(part) + fall * std::pow(scale, -1 - fall) * part.pixels * needed(part);
+    }
+};
+
+Plan plan_of(const std::vector<Part> &parts, double fall, double rays_wanted, double goal) {
+    double least = -30, most = 60; // logarithms of the scale
+    for (int i = 0; i < 60; ++i) {
+        const Plan plan{fall, std::exp((least + most) / 2)};
+        double pixels = 0, rays = 0, error = 0;
+        for (const Part &part : parts) {
+            pixels += part.pixels;
+            rays += part.pixels * plan.needed(part);
+            error += plan.error(part);
+        }
+        const bool enough = rays_wanted > 0 ? rays >= rays_wanted * pixels : error <= goal * pixels;
+        (enough ? most : least) = std::log(plan.scale);
+    }
+    return {fall, std::exp(most)};
+}
+
+// Cuts a lattice of blocks in two, and one of the pieces again, and so on: where most is saved.
+std::vector<Imath::Box2i> pieces_of(const Grid &lattice, const Plan &plan,
+                                    const std::function<Part(const Imath::Box2i &)> &part_of) {
+    std::vector<Imath::Box2i> pieces{lattice.box()};
+    const double worth = FinishTuning::least_saving * plan.cost(part_of(pieces[0]));
+    while (pieces.size() < FinishTuning::most_pieces) {
+        double most = worth;
+        std::size_t cut = 0;
+        Imath::Box2i first, second;
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            const double whole = plan.cost(part_of(pieces[p]));
+            for (const int axis : {0, 1})
+                for (int at = pieces[p].min[axis]; at < pieces[p].max[axis]; ++at) {
+                    Imath::Box2i before = pieces[p], after = before;
+                    before.max[axis] = at;
+                    after.min[axis] = at + 1;
+                    const double saved = whole - plan.cost(part_of(before)) - plan.cost(part_of(after));
+                    if (saved <= most) continue;
+                    most = saved, cut = p, first = before, second = after;
+                }
+        }
+        if (most == worth) break;
+        pieces[cut] = first;
+        pieces.push_back(second);
+    }
+    return pieces;
+}
+
+} // namespace
+
+AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
+                   double goal) {
+    const double fall = decibels(error) ? fall_of(error, samples.mean) : 1;
+    const Tiles blocks(grid.box(), FinishTuning::ask_block_px);
+    std::vector<Part> parts(blocks.count());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const auto [n, m] = samples.at(i);
+        parts[blocks.tile_of(grid.pixel(i))] +=
+            {1, double(error.map[i]) * std::pow(double(n + m), fall), double(n + m)};
+    }
+    const Plan plan = plan_of(parts, fall, rays, goal);
+    AskedRays asked{Values(grid.size()), {}};
+    const auto more = [](const Plan &by, const Part &part) {
+        return by.needed(part) - part.samples / part.pixels;
+    };
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        asked.more[i] = float(more(plan, parts[blocks.tile_of(grid.pixel(i))]));
+
+    const Grid lattice(blocks.columns(), blocks.rows());
+    const auto part_of = [&](const Imath::Box2i &box) {
+        Part sum;
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) sum += parts[lattice.index(x, y)];
+        return sum;
+    };
+    const std::vector<Imath::Box2i> pieces = pieces_of(lattice, plan, part_of);
+    std::vector<Part> together;
+    for (const Imath::Box2i &piece : pieces) together.push_back(part_of(piece));
+    const Plan of_pieces = plan_of(together, fall, rays, goal);
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+        if (const auto half = int(std::lround(more(of_pieces, together[p]) / 2)); half > 0)
+            asked.rectangles.emplace_back(Imath::Box2i(blocks.box(pieces[p].min.x, pieces[p].min.y).min,
+                                                       blocks.box(pieces[p].max.x, pieces[p].max.y).max),
+                                          2 * half);
+    return asked;
+}
+
+} // namespace sparselens
