@@ -92,6 +92,33 @@ finished_by_hand still "" still --focus-distance 3
 same still/picture.exr "Finish"
 if picture same still/gathered.exr still/picture.exr >found 2>&1; then fail "Finish changes nothing"; fi
 for half in 1 2; do exrheader still/rays_$half.exr | grep -Eq '^cycles\..*samples \(type string\): "4"' || fail "Finish: not 4 samples"; done
+# Rays Where Needed: half of the rays first, then rectangles with the rest.
+press small.blend still focus 3 set finish=32 set finish_where_needed=True finish
+mv still/picture.exr asked.exr
+for half in 1 2; do exrheader still/rays_$half.exr | grep -Eq '^cycles\..*samples \(type string\): "8"' || fail "Rays Where Needed: not 8 samples first"; done
+by_hand still "" --focus-distance 3
+mv hand.exr gathered.exr
+dof-finish gathered.exr still/rays_{1,2}.exr -o hand.exr --ask mask.exr --rays 32 >asked 2>log || fail "$(cat log)"
+number=0 parts=()
+while IFS=', ' read -r x y width height samples; do
+    number=$((number + 1))
+    for half in 1 2; do
+        part=still/rays_${half}_$number.exr
+        parts+=("$part")
+        exrheader "$part" | grep -q "^dataWindow (type box2i): ($x $y) - ($((x + width - 1)) $((y + height - 1)))" || fail "Rays Where Needed: $part is not $x,$y,$width,$height"
+        exrheader "$part" | grep -Eq "^cycles\..*samples \(type string\): \"$((samples / 2))\"" || fail "Rays Where Needed: $part has not $samples / 2 samples"
+    done
+done <asked
+[ $number -gt 0 ] || fail "Rays Where Needed: none asked for"
+dof-finish gathered.exr still/rays_{1,2}.exr "${parts[@]}" -o hand.exr 2>log || fail "$(cat log)"
+if grep warning log; then fail "Rays Where Needed: warns of good parts"; fi
+same asked.exr "Rays Where Needed"
+# The part of most samples shows what the whole render shows there.
+read -r number samples window < <(awk '{ print NR, $2, $1 }' asked | sort -k 2nr | head -n 1)
+[ "$samples" -ge 16 ] || fail "Rays Where Needed: the rays are spread evenly: $(cat asked)"
+oiiotool still/rays_1.exr --crop "$(sed -E 's/(.*),(.*),(.*),(.*)/\3x\4+\1+\2/' <<<"$window")" -o there.exr
+dof-compare "still/rays_1_$number.exr" there.exr >log || fail "$(cat log)"
+awk '$1 == "psnr_tonemapped" && $2 > 23 { found = 1 } END { exit !found }' log || fail "Rays Where Needed: a part lies elsewhere: $(cat log)"
 press small.blend still set looks="'--cat-eye 0.7'" refuse-finish "finishing: Blender's lens has no --cat-eye in \"Other Options\": remove"
 press small.blend still set looks="'--quality final'" finish
 echo "Finish: dof-finish's bits, the scene unchanged"

@@ -3,6 +3,7 @@ dof-finish."""
 
 from contextlib import contextmanager
 
+from .exr import exr_box
 from .for_a_while import changed, only_layer, render_settings, still_camera
 from .kept import is_same_render, manner_attributes, windows
 from .shots import shot_of
@@ -18,28 +19,46 @@ def open_lens(camera, shot):
         yield
 
 
-def halves_steps(scene, path_of, eye, manner, view_steps):
+def halves_steps(scene, path_of, eye, manner, view_steps, asked=()):
     """Renders rays_1 and rays_2, with manner.finish samples per pixel in
     total. They have the size of the picture, without sub-pixels and overscan.
     Neither is denoised, because that would leave different noise. With
-    manner.keep a render of an earlier run stays if it has this camera, lens
-    and samples."""
-    shot, cycles, samples = shot_of(scene, eye), scene.cycles, manner.finish
+    `asked`, instead the rectangles of dof-finish --ask, each with its samples:
+    rays_1_1, rays_2_1, rays_1_2, ... With manner.keep a render of an earlier
+    run stays if it has this camera, lens and samples."""
+    shot, cycles = shot_of(scene, eye), scene.cycles
+    renders = [(half + 2 * number, name % half, (samples + 2 - half) // 2, box)
+               for number, (name, samples, box) in enumerate(
+                   asked_renders(asked) or [("rays_%d", manner.finish, None)],
+                   1 if asked else 0) for half in (1, 2)]
     with render_settings(scene, shot.size, manner.multilayer), \
             still_camera(scene), only_layer(scene, manner.layer):
-        for half, count in ((1, samples - samples // 2), (2, samples // 2)):
+        for seed, name, count, box in renders:
             with open_lens(scene.camera, shot), changed(
-                    cycles, seed=(cycles.seed + half) % 2 ** 31,
+                    cycles, seed=(cycles.seed + seed) % 2 ** 31,
                     samples=count, use_adaptive_sampling=False,
-                    use_denoising=False):
-                path = path_of("rays_%d" % half)
+                    use_denoising=False), changed(
+                        scene.render, use_crop_to_border=box is not None):
+                path = path_of(name)
                 attributes = windows(shot.size, 0) | manner_attributes(
                     scene, manner.layer, manner.multilayer)
+                if box:
+                    x0, y0, x1, y1 = box
+                    attributes["dataWindow"] = exr_box(
+                        x0, y0, x1 - x0 + 1, y1 - y0 + 1)
                 if manner.keep and is_same_render(path, shot, attributes):
                     continue
                 yield from view_steps(
-                    scene, path, shot, (0, 0), 0, None, attributes,
+                    scene, path, shot, (0, 0), 0, box, attributes,
                     plain=not manner.multilayer)
+
+
+def asked_renders(asked):
+    """Name, samples and box, corners included, of each rectangle."""
+    return [("rays_%%d_%d" % number, samples,
+             (x, y, x + width - 1, y + height - 1))
+            for number, (x, y, width, height, samples)
+            in enumerate(asked, 1)]
 
 
 def curves_of(action):

@@ -56,6 +56,10 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Rays to Finish", description="Samples a pixel of the two "
         "renders through the lens by which Finish makes the picture exact, "
         "both together", default=80, min=2, soft_max=4096)
+    finish_where_needed: bpy.props.BoolProperty(
+        name="Rays Where Needed", description="Finish renders half of its "
+        "rays first, and the others in rectangles where the picture needs "
+        "them most")
     finish_frames: bpy.props.BoolProperty(
         name="Finish Frames",
         description="Render Animation finishes its pictures, too")
@@ -163,6 +167,7 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         if taking.follower:
             say(layout, in_panel(taking.follower.message), context)
         layout.prop(settings, "finish")
+        layout.prop(settings, "finish_where_needed")
         layout.operator("sparselens.finish")
         layout.prop(settings, "finish_frames")
         layout.prop(settings, "keep")

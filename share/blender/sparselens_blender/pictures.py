@@ -175,10 +175,14 @@ def gather_command(folder, ldi, out, options):
             "--overscan", "crop", *options]
 
 
-def finish_command(folder, files, out):
-    """Makes dof-finish improve the gathered picture with the two renders."""
+def finish_command(folder, files, out, rectangles=0, options=()):
+    """Makes dof-finish improve the gathered picture with the two renders, and
+    those of rectangles."""
+    names = ["rays_%d"] + ["rays_%%d_%d" % (number + 1)
+                           for number in range(rectangles)]
     return [tools.tool(folder, "dof-finish"), files.path("gathered"),
-            files.path("rays_1"), files.path("rays_2"), "-o", out]
+            *[files.path(name % half) for name in names for half in (1, 2)],
+            "-o", out, *options]
 
 
 DRAFT_WIDTH = 640  # pixels to gather; a wider picture is first shown smaller
