@@ -128,16 +128,11 @@ Stats say_error(const FinishCommand &options, const FinishedPicture &finished, c
     if (!options.goal) return stats;
     const auto times = times_the_rays(error, finished.samples.mean, *options.goal);
     stats["times_the_rays"] = times ? Stats(*times) : Stats(nullptr);
-    if (!times)
-        fmt::print(stderr, "{}: {:g} dB: these renders cannot tell; give more samples\n", tool.tool_name,
-                   *options.goal);
-    else if (*times <= 1)
-        fmt::print(stderr, "{}: {:g} dB: reached\n", tool.tool_name, *options.goal);
-    else if (*times > 100)
-        fmt::print(stderr, "{}: {:g} dB: more than 100 times the rays\n", tool.tool_name, *options.goal);
-    else
-        fmt::print(stderr, "{}: {:g} dB: about {:.1f} times the rays\n", tool.tool_name, *options.goal,
-                   *times);
+    const std::string told = !times         ? "these renders cannot tell; give more samples"
+                             : *times <= 1  ? "reached"
+                             : *times > 100 ? "more than 100 times the rays"
+                                            : fmt::format("about {:.1f} times the rays", *times);
+    fmt::print(stderr, "{}: {:g} dB: {}\n", tool.tool_name, *options.goal, told);
     return stats;
 }
 

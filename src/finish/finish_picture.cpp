@@ -339,7 +339,8 @@ ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays, 
     parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
         for (std::size_t i = row * std::size_t(grid.width()); i < (row + 1) * std::size_t(grid.width());
              ++i) {
-            const float of_first = samples.share_of_first(i), noise_share = of_first * (1 - of_first);
+            const auto [n, m] = samples.at(i);
+            const float noise_share = n * m / ((n + m) * (n + m));
             float sum = 0, sum_of_one = 0;
             for (std::size_t c = 0; c < finished.picture.size(); ++c) {
                 const float f = finished.of_one[0][c][i], g = finished.of_one[1][c][i];

@@ -44,13 +44,12 @@ double fall_of(const ErrorEstimate &error, const std::array<double, 2> &samples)
 std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
                                      double goal);
 
-// Where more rays are needed. The error of a block of pixels falls as a power of its rays (fall_of()), so a picture has
-// the least error for its rays if each block has them in proportion to the error of one ray to the power
-// 1 / (1 + fall), and at least those that it has.
+// Where more rays are needed. The error of a block falls as a power of its rays (fall_of()), so it is least if rays go
+// as the error of one ray to the power 1 / (1 + fall), and none is taken away.
 struct AskedRays {
     Values more; // samples that each pixel needs beyond those that it has
-    std::vector<std::pair<Imath::Box2i, int>>
-        rectangles; // a few that cost as much together: pixels of the grid, and an even number of samples
+    // A few that cost as much together: pixels of the grid, and an even number of samples.
+    std::vector<std::pair<Imath::Box2i, int>> rectangles;
 };
 
 // `rays`: for each pixel on average, with those that it has; 0: as many as a mean squared error of `goal` takes.

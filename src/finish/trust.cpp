@@ -163,7 +163,10 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
     const auto width = std::size_t(evidence.grid.width());
     parallel_for(std::size_t(evidence.grid.height()), [&](std::size_t y) {
         std::vector<float> share, both(width), of_first(width);
-        for (std::size_t x = 0; x < width; ++x) of_first[x] = evidence.samples.share_of_first(y * width + x);
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto [n, m] = evidence.samples.at(y * width + x);
+            of_first[x] = n / (n + m);
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             cells.interpolate(shares[k], y, share);
             for (std::size_t c = 0; c < pictures[k].size(); ++c) {
@@ -187,7 +190,6 @@ struct RunEvidence {
     Run spread{}, noise{};
     Run light{}, variance{}; // of the light that the rays show above the picture
     std::array<Run, 2> samples{};
-    Run of_first{}; // the share of the first
 };
 
 struct Pixels {
@@ -223,7 +225,7 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
         sums->removed[1][i] += t1.removed;
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const float first = sums->of_first[i], second = 1 - first;
+        const float n = sums->samples[0][i], m = sums->samples[1][i], first = n / (n + m), second = 1 - first;
         const float b2 = first * b0[i] + second * b1[i], weight = seen(larger(a2[i], b2));
         const float apart = (b0[i] - a0[i]) - (b1[i] - a1[i]), difference = x[i] - y[i];
         sums->energy[2][i] += weight * (b2 - a2[i]) * (b2 - a2[i]);
@@ -231,8 +233,7 @@ FOR_PROCESSORS void add_channel(const Pixels &pixels, RunEvidence *__restrict su
         sums->noise[i] += seen(a2[i]) * difference * difference;
         const float above = first * x[i] + second * y[i] - a2[i];
         sums->light[i] += positive(above);
-        sums->variance[i] +=
-            first * sums->samples[1][i] * difference * difference * (0.5f + std::copysign(0.5f, above));
+        sums->variance[i] += first * m * difference * difference * (0.5f + std::copysign(0.5f, above));
     }
 }
 
@@ -275,10 +276,8 @@ CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const Ra
             for (std::size_t x = 0; x < width; x += run_length) {
                 RunEvidence run;
                 const std::size_t first = y * width + x, count = std::min(run_length, width - x);
-                for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t i = 0; i < count; ++i)
                     for (std::size_t k = 0; k < 2; ++k) run.samples[k][i] = evidence.samples.at(first + i)[k];
-                    run.of_first[i] = evidence.samples.share_of_first(first + i);
-                }
                 for (std::size_t c = 0; c < pictures[0].size(); ++c)
                     add_channel(pixels_at(c, first), &run, count);
                 for (Run &left : run.left)

@@ -32,10 +32,6 @@ struct RayCounts {
         if (by_pixel[0].empty()) return {float(mean[0]), float(mean[1])};
         return {by_pixel[0][i], by_pixel[1][i]};
     }
-    float share_of_first(std::size_t i) const {
-        const auto [n, m] = at(i);
-        return n / (n + m);
-    }
 };
 
 // max(v, 0), exactly, without a branch, so that compilers can process several values at once.
