@@ -86,6 +86,9 @@ std::vector<Imath::Box2i> pieces_of(const Grid &lattice, const Plan &plan,
 AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
                    double goal) {
     const double fall = decibels(error) ? fall_of(error, samples.mean) : 1;
+    double of_map = 0; // at least 0 everywhere, so it is more than the picture's
+    for (const float e : error.map) of_map += double(e) / double(grid.size());
+    if (error.mean > 0) goal *= of_map / error.mean;
     const Tiles blocks(grid.box(), FinishTuning::ask_block_px);
     std::vector<Part> parts(blocks.count());
     for (std::size_t i = 0; i < grid.size(); ++i) {
