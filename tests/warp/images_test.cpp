@@ -122,6 +122,33 @@ TEST(Images, ThatMoveByLessThanAQuarterOfThePicturesPixelAreNotLookedFor) {
     EXPECT_EQ(found(0.6, 8), 0);
 }
 
+// A mirror from the top to the bottom, 16 pixels wide, that recedes by a quarter of a pixel of perceptive depth per
+// pixel. Near its edges, too little of a patch shows the surface of a block to be compared; the depth of the image is
+// continued there.
+TEST(Images, ReachTheEdgesOfASteepMirror) {
+    constexpr double image_z = 20, recedes = 0.25;
+    constexpr int left = 40, end = 56;
+    const std::vector<View> views = five_views([&](const Imath::V2d &u) {
+        return make_view(window, radius * u, [&](int i, int j) {
+            // Where the centre view shows what the pixel sees in the mirror's plane, and in its image.
+            const double nearest = scale / wall_z + recedes * left;
+            const double x = (i + 0.5 + nearest * u.x) / (1 + recedes * u.x), image = scale / image_z;
+            if (x < left || x >= end) return ViewPixel{.z = 40, .g = 0.5f};
+            return ViewPixel{.z = float(scale / (nearest - recedes * x)),
+                             .r = waves(i + 0.5 + image * u.x, j + 0.5 - image * u.y)};
+        });
+    });
+    const Ldi ldi = warped(views);
+    ASSERT_FALSE(ldi.optical.empty());
+    int pixels = 0, right = 0;
+    for (int y = 12; y < window.height() - 12; ++y)
+        for (int x = left; x < end; ++x, ++pixels) {
+            const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+            right += std::abs(scale / ldi.optical_z(i) - scale / image_z) < 0.1;
+        }
+    EXPECT_EQ(right, pixels);
+}
+
 TEST(Images, NoiseMakesDepthsCoarserNotFalse) {
     const Ldi ldi = warped(mirror(6, waves, 0.1f));
     const Shares found = shares(ldi, 6, 0.05);

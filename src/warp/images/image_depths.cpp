@@ -55,7 +55,7 @@ private:
 Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const Depths &depths) const {
     return Neighbours([&](const Imath::V2i &place) -> Neighbours::Pixel {
         const std::size_t index = search_.index_of(tile.min + place);
-        if (index == npos || !matches_[index].surface) return {unknown, unknown};
+        if (index == npos) return {unknown, unknown};
         return {matches_[index].own_depth, depths[index]};
     });
 }
@@ -113,7 +113,8 @@ float depth_around(const Neighbours &neighbours, const Imath::V2i &place, std::v
     return around.size() < WarpTuning::image_least_sources ? unknown : median(around);
 }
 
-// Continues depths to pixels of the same surface, if the views agree there about as well as on the surface.
+// Continues depths to pixels of the same surface, if the views agree there about as well as on the surface, or if they
+// cannot be compared: on edges, and where a steep mirror leaves the surface of its block.
 void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to) {
     const Neighbours around_tile = neighbours(tile, from);
     const Grid pixels(tile);
@@ -123,7 +124,7 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const std::size_t index = search_.index_of(pixels.pixel(n));
         to[index] = from[index];
-        if (!matches_[index].surface || !std::isnan(from[index])) continue;
+        if (std::isnan(matches_[index].own_depth) || !std::isnan(from[index])) continue;
         const Imath::V2i place = pixels.pixel(n) - tile.min;
         auto &[own, depth] = of_four[std::size_t(place.y / 2 * (image_block / 2) + place.x / 2)];
         if (!kernels::is_one_surface(own, matches_[index].own_depth, one_mirror_px)) {
@@ -140,9 +141,11 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
     const std::vector<float> means = robust_means(sweep_.differences(tile, tried_at), pixels.size());
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const std::size_t index = search_.index_of(pixels.pixel(n));
-        const float most = WarpTuning::image_continued_difference * matches_[index].at_surface +
+        const ImageMatch &match = matches_[index];
+        const float most = WarpTuning::image_continued_difference * match.at_surface +
                            WarpTuning::image_continued_least_difference;
-        if (!std::isnan(depths[n]) && means[n] <= most) to[index] = depths[n];
+        const bool disproved = match.surface && means[n] > most;
+        if (!std::isnan(depths[n]) && !disproved) to[index] = depths[n];
     }
 }
 

@@ -150,10 +150,9 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block,
     });
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Imath::V2i p = grid.pixel(i);
-        const float own = centre.depth(p.x, p.y);
-        if (!kernels::is_one_surface(own, surface, one_mirror_px)) continue;
         ImageMatch &match = matches[i];
-        match.own_depth = own;
+        match.own_depth = centre.depth(p.x, p.y);
+        if (!kernels::is_one_surface(match.own_depth, surface, one_mirror_px)) continue;
         match.at_surface = at_surface.at(0, i);
         match.surface = !std::isnan(match.at_surface);
     }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,8 +24,9 @@ struct ImageMatch {
     bool surface = false; // it shows the surface of its block, and the views can be compared
     // one depth explains the views, and better by a clear margin than the surface's depth
     bool found = false;
-    float depth = 0;      // perceptive, pixels; below 0: rays meet behind the camera
-    float own_depth = 0;  // of the surface
+    float depth = 0; // perceptive, pixels; below 0: rays meet behind the camera
+    // of what the pixel shows, even if that is not the surface of its block; NaN: unknown
+    float own_depth = std::numeric_limits<float>::quiet_NaN();
     float at_surface = 0; // the difference if the picture lay on the surface
 };
 

@@ -138,7 +138,7 @@ public:
     static constexpr int reach = 8; // pixels around the block
 
     struct Pixel {
-        float own_depth; // perceptive, of its surface; NaN: it shows no surface that could be searched
+        float own_depth; // perceptive, of its surface; NaN: unknown
         float depth;     // of its image; NaN: not known
     };
     template <typename PixelAt>
