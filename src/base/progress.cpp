@@ -1,5 +1,7 @@
 #include "base/progress.h"
 
+#include <utility>
+
 namespace sparselens {
 
 void Progress::start(std::string stage, std::size_t steps) {
@@ -18,6 +20,20 @@ void Progress::advance(std::size_t steps) {
 
 void Progress::may_end() const {
     if (watch_) watch_();
+}
+
+void Progress::spent(const std::string &step, double ms) {
+    const std::lock_guard lock(guard_);
+    ms_[step] += ms;
+}
+
+void Progress::spent(const std::map<std::string, double> &ms) {
+    for (const auto &[step, some] : ms) spent(step, some);
+}
+
+std::map<std::string, double> Progress::take_times() {
+    const std::lock_guard lock(guard_);
+    return std::exchange(ms_, {});
 }
 
 } // namespace sparselens

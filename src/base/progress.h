@@ -2,10 +2,13 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string>
+#include <utility>
 
 namespace sparselens {
 
@@ -26,12 +29,37 @@ public:
     void advance(std::size_t steps = 1); // from any thread
     void may_end() const;                // from any thread, at points where nothing is left half done
 
+    // Counts the time that a step took, once more; from any thread.
+    void spent(const std::string &step, double ms);
+    void spent(const std::map<std::string, double> &ms);
+    // Milliseconds of the steps since this was last called.
+    std::map<std::string, double> take_times();
+
 private:
     Listener listener_;
     Watch watch_;
     std::string stage_;
     std::size_t total_ = 0;
     std::atomic<std::size_t> done_ = 0;
+    std::mutex guard_; // for ms_
+    std::map<std::string, double> ms_;
+};
+
+// Counts the time until it is destroyed.
+class Timed {
+public:
+    Timed(Progress &progress, std::string step) : progress_(progress), step_(std::move(step)) {}
+    ~Timed() { progress_.spent(step_, ms()); }
+    Timed(const Timed &) = delete;
+    Timed &operator=(const Timed &) = delete;
+    double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+private:
+    Progress &progress_;
+    std::string step_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 // The work that a device did, and the work that it left to the CPU.
@@ -40,6 +68,7 @@ private:
 struct DeviceReport {
     std::size_t on_device = 0;
     std::size_t uploaded = 0;                       // bytes
+    std::map<std::string, double> ms = {};          // of uploads, downloads and programs
     std::map<std::string, std::size_t> on_cpu = {}; // work left to the CPU, by its reason in a few words
     std::string failure = {};                       // not empty: how the device failed; the CPU did the rest
 };

@@ -26,7 +26,7 @@ void tell_done(const DeviceReport &did, const DeviceNotices &notices, const Tell
 } // namespace
 
 template <typename Device>
-void KeptDevice<Device>::with(const std::string &word, const Tell &tell,
+void KeptDevice<Device>::with(const std::string &word, const Tell &tell, Progress &progress,
                               const std::function<void(Device *)> &work) {
     if (word == "cpu") {
         tell({NoticeKind::on_cpu});
@@ -39,7 +39,10 @@ void KeptDevice<Device>::with(const std::string &word, const Tell &tell,
     else
         tell({NoticeKind::on_cpu});
     work(device_.get());
-    if (device_) tell_done(device_->take_report(), notices_, tell);
+    if (!device_) return;
+    const DeviceReport did = device_->take_report();
+    tell_done(did, notices_, tell);
+    progress.spent(did.ms);
 }
 
 template <typename Device>

@@ -25,8 +25,10 @@ public:
 
     // Calls work(device) with the device that `word` means, as for choose_device() of gpu/device_list.h; null: the CPU.
     // One piece of work at a time has the device, others wait. Reports which device it is and what it did. Throws Error
-    // if that device does not exist; if it cannot be used, it gives a warning and uses the CPU.
-    void with(const std::string &word, const Tell &tell, const std::function<void(Device *)> &work);
+    // if that device does not exist; if it cannot be used, it gives a warning and uses the CPU. The progress counts the
+    // device's times.
+    void with(const std::string &word, const Tell &tell, Progress &progress,
+              const std::function<void(Device *)> &work);
 
     // Closes the device.
     void release();

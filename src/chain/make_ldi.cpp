@@ -189,10 +189,11 @@ void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &requ
                 {NoticeKind::file_note, in.views[0].name, {std::string("deep views are warped by the CPU")}});
         WarpOptions with = by;
         with.device = device;
+        const Timed warping(work.progress, "warp");
         out.ldi = warp(std::move(in.views), with, work.progress);
     };
     if (work.device)
-        work.device->with(request.device, work.tell, warp_by);
+        work.device->with(request.device, work.tell, work.progress, warp_by);
     else
         warp_by(nullptr);
 }

@@ -40,7 +40,9 @@ public:
         return *part_;
     }
     void finish() {
-        if (part_) reach(hundred);
+        if (!part_) return;
+        reach(hundred);
+        whole_.spent(part_->take_times());
     }
 
     // For work that shows no progress.

@@ -148,7 +148,7 @@ private:
                 out_.image = frame_.picture_of(chosen_channels(gathered(), request_.channels));
         };
         if (work_.device)
-            work_.device->with(request_.device, work_.tell, gather_by);
+            work_.device->with(request_.device, work_.tell, work_.progress, gather_by);
         else
             gather_by(nullptr);
         if (request_.show != Show::picture) out_.image = frame_.picture_of(crop(shown(), frame_.needed));
@@ -296,7 +296,12 @@ TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &requ
     LooksReader looks;
     PictureWork with = work;
     if (!with.looks) with.looks = &looks;
-    OpenedLdi &in = cache.load(request, work.tell, choose_samples(request, keep, with));
+    const auto read = [&]() -> OpenedLdi & {
+        const Timed reading(work.progress, "read");
+        return cache.load(request, work.tell, choose_samples(request, keep, with));
+    };
+    OpenedLdi &in = read();
+    const Timed taking(work.progress, "picture");
     return Taking(in, keep ? nullptr : &in.ldi, request, with).picture();
 }
 

@@ -6,10 +6,13 @@
 #include "gpu/vulkan_instance.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstring>
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sparselens::gpu {
@@ -21,6 +24,7 @@ struct Buffer::Memory {
 };
 
 struct Program::Pipeline {
+    const char *name;
     std::uint32_t buffers, push_bytes;
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
@@ -36,7 +40,10 @@ struct Device::Vulkan {
     vk::raii::CommandPool commands;
     vk::PhysicalDeviceMemoryProperties memories;
     const Watch &watch;
-    std::unique_ptr<Buffer::Memory> staging; // seen by host and device; made when it is first needed
+    double tick_ms = 0;                               // of the device's clock; 0: it has none
+    std::optional<vk::raii::QueryPool> begin_and_end; // of a program, in ticks
+    std::unique_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
+    std::map<std::string, double> ms;
 
     Vulkan(const DeviceInfo &info, const Watch &watch);
 
@@ -45,6 +52,7 @@ struct Device::Vulkan {
     std::unique_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
                                              std::initializer_list<vk::MemoryPropertyFlags> best_first) const;
     const Buffer::Memory &staged();
+    double ticked_ms() const; // of the last program
 
     // Submits the commands that record(command buffer) records, and waits until they are done.
     template <typename Record>
@@ -62,6 +70,14 @@ struct Device::Vulkan {
         }
     }
 };
+
+// Calls work(), and adds the time that it takes to `ms`.
+template <typename Work>
+void timed(double &ms, const Work &work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
 
 // Runs `work`. Turns what Vulkan throws into DeviceFailed.
 template <typename Work>
@@ -132,7 +148,19 @@ Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch_)
       physical(std::move(vk::raii::PhysicalDevices(instance.instance).at(info.index))),
       family(compute_family(physical)), device(make_device(physical, family)), queue(device, family, 0),
       commands(device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, family)),
-      memories(physical.getMemoryProperties()), watch(watch_) {}
+      memories(physical.getMemoryProperties()), watch(watch_) {
+    if (physical.getQueueFamilyProperties()[family].timestampValidBits < 64) return; // ticks may wrap round
+    tick_ms = double(physical.getProperties().limits.timestampPeriod) * 1e-6;
+    begin_and_end.emplace(device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2));
+}
+
+double Device::Vulkan::ticked_ms() const {
+    std::array<std::uint64_t, 2> ticks{};
+    const vk::Result found = (*device).getQueryPoolResults(
+        **begin_and_end, 0, 2, sizeof(ticks), ticks.data(), sizeof(ticks[0]),
+        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait, *device.getDispatcher());
+    return found == vk::Result::eSuccess ? double(ticks[1] - ticks[0]) * tick_ms : 0;
+}
 
 void Device::Vulkan::ask_watch() const {
     if (const int result = watch.fails ? watch.fails() : 0) throw_as_asked(vk::Result(result));
@@ -148,7 +176,7 @@ double Device::most_turns() const {
     return std::min(info_.kind == Kind::software ? 6e4 : watch_.most_turns, watch_.most_turns);
 }
 
-Program Device::program(std::span<const std::uint32_t> spirv, std::uint32_t buffers,
+Program Device::program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                         std::uint32_t push_bytes) {
     return guarded(info_, [&] {
         const vk::raii::Device &device = vulkan_->device;
@@ -161,8 +189,8 @@ Program Device::program(std::span<const std::uint32_t> spirv, std::uint32_t buff
                                             vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
         vk::raii::Pipeline pipeline(device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
-        return Program(std::make_unique<Program::Pipeline>(
-            Program::Pipeline{buffers, push_bytes, std::move(sets), std::move(layout), std::move(pipeline)}));
+        return Program(std::make_unique<Program::Pipeline>(Program::Pipeline{
+            name, buffers, push_bytes, std::move(sets), std::move(layout), std::move(pipeline)}));
     });
 }
 
@@ -180,8 +208,11 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
         for (const Buffer *buffer : buffers) whole.emplace_back(*buffer->memory_->buffer, 0, VK_WHOLE_SIZE);
         device.updateDescriptorSets(
             vk::WriteDescriptorSet(*sets.front(), 0, 0, vk::DescriptorType::eStorageBuffer, {}, whole), {});
-        vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
+        const auto &clock = vulkan_->begin_and_end;
+        const auto record = [&](const vk::raii::CommandBuffer &command) {
             constexpr auto compute = vk::PipelineBindPoint::eCompute;
+            if (clock) command.resetQueryPool(**clock, 0, 2);
+            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, **clock, 0);
             command.bindPipeline(compute, *what.pipeline);
             command.bindDescriptorSets(compute, *what.layout, 0, *sets.front(), {});
             if (!push.empty())
@@ -193,9 +224,15 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
             using Stage = vk::PipelineStageFlagBits;
             const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite);
             command.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, written, {}, {});
-        });
+            if (clock) command.writeTimestamp(Stage::eBottomOfPipe, **clock, 1);
+        };
+        double waited = 0;
+        timed(waited, [&] { vulkan_->submit(record); });
+        vulkan_->ms[what.name] += clock ? vulkan_->ticked_ms() : waited;
     });
 }
+
+std::map<std::string, double> Device::take_times() { return std::exchange(vulkan_->ms, {}); }
 
 namespace {
 
@@ -308,7 +345,7 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::size_t at)
 void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
                     std::size_t at) {
     if (ranges.empty()) return;
-    guarded(info_, [&] {
+    const auto copy = [&] {
         const Mapped staging(vulkan_->staged().memory);
         std::vector<vk::BufferCopy> copies;
         std::size_t filled = 0;
@@ -331,11 +368,12 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
                 if (filled == staging_bytes) submit();
             }
         submit();
-    });
+    };
+    guarded(info_, [&] { timed(vulkan_->ms["upload"], copy); });
 }
 
 void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t at) {
-    guarded(info_, [&] {
+    const auto copy = [&] {
         const Buffer::Memory &staged = vulkan_->staged();
         for (std::size_t done = 0; done < to.size(); done += staging_bytes) {
             const std::size_t piece = std::min(staging_bytes, to.size() - done);
@@ -347,7 +385,8 @@ void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t a
             });
             std::memcpy(to.data() + done, Mapped(staged.memory).at(), piece);
         }
-    });
+    };
+    guarded(info_, [&] { timed(vulkan_->ms["download"], copy); });
 }
 
 } // namespace sparselens::gpu

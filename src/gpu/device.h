@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -90,10 +91,15 @@ public:
     void download(std::span<std::byte> to, const Buffer &from, std::size_t at = 0);
     void fill(Buffer &buffer, std::uint32_t word); // all of it
 
-    // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0.
-    Program program(std::span<const std::uint32_t> spirv, std::uint32_t buffers, std::uint32_t push_bytes);
+    // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0. `name`: for the times.
+    Program program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
+                    std::uint32_t push_bytes);
     void run(const Program &program, std::span<const Buffer *const> buffers, std::span<const std::byte> push,
              const std::array<std::uint32_t, 3> &groups);
+
+    // Milliseconds since this was last called: of "upload" and "download" by the clock, and of each program by the
+    // device's own clock, if it has one.
+    std::map<std::string, double> take_times();
 
 private:
     struct Vulkan;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace sparselens {
@@ -46,6 +48,18 @@ TEST(Progress, WorkEndsBetweenItsStepsWhereItsOwnerAsksForThat) {
     EXPECT_NO_THROW(Progress().may_end());
     wanted = false;
     EXPECT_THROW(progress.may_end(), Ended);
+}
+
+TEST(Progress, SumsTheTimesOfStepsUntilTheyAreTaken) {
+    Progress progress;
+    parallel_for(100, [&](std::size_t i) { progress.spent(i % 2 == 0 ? "even" : "odd", 0.5); });
+    progress.spent({{"even", 3}, {"all", 1}});
+    { const Timed timed(progress, "timed"); }
+    auto ms = progress.take_times();
+    EXPECT_GE(ms["timed"], 0);
+    ms.erase("timed");
+    EXPECT_EQ(ms, (std::map<std::string, double>{{"even", 28}, {"odd", 25}, {"all", 1}}));
+    EXPECT_TRUE(progress.take_times().empty());
 }
 
 } // namespace

@@ -43,6 +43,7 @@ protected:
         EXPECT_GT(did.on_device, 0u);
         EXPECT_EQ(did.on_cpu, Tiles());
         EXPECT_EQ(did.failure, "");
+        for (const char *step : {"upload", "lens", "download"}) EXPECT_GT(did.ms.at(step), 0) << step;
         EXPECT_LE(largest_difference(image, expected), tolerance); // sums in the same order: rounding at most
         EXPECT_EQ(gather(ldi, options, by).values, image.values);
         device->take_report();

@@ -21,11 +21,13 @@ exits 0 "$bin/dof-gather" clustered.exr -o out.exr --stats stats.json
 [ "$(wc -l <stats.json)" -eq 3 ] || fail "not a line a stage: $(cat stats.json)"
 pixels=$((96 * 54))
 holds stats.json 0 's["tool"] == "ldi-warp"' 's["views"] == 5' "s['pixels_given'] == 5 * $pixels" 's["pixels_not_given"] == 0' \
-    's["samples"] + s["samples_merged"] == s["pixels_given"]' 's["samples_merged"] > 0' '"frame" not in s'
+    's["samples"] + s["samples_merged"] == s["pixels_given"]' 's["samples_merged"] > 0' '"frame" not in s' \
+    'set(s["ms"]) == {"read and warp", "warp", "write"}' 's["ms"]["read and warp"] >= s["ms"]["warp"] > 0'
 holds stats.json 1 's["tool"] == "ldi-cluster"' 's["samples_read"] - s["samples"] == s["samples_merged"] > 0' 's["samples_invisible"] == 0' \
     '0 < s["largest_coc_change"] <= 2'
 holds stats.json 2 's["tool"] == "dof-gather"' 's["input_read"]' 's["tiles"] == 2' 's["channels_left_out"] == []' \
-    'sum(s["lens_points"].values()) + s["tiles_copied"] == s["tiles"]'
+    'sum(s["lens_points"].values()) + s["tiles_copied"] == s["tiles"]' \
+    'set(s["ms"]) == {"read", "picture", "tiles", "write"}' 's["ms"]["picture"] >= s["ms"]["tiles"] > 0'
 
 # --stats changes no picture, and - is standard error.
 exits 0 "$bin/dof-gather" clustered.exr -o same.exr --stats -

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -101,6 +102,8 @@ void write_stats(const ToolContext &tool, const Stats &fields) {
     Stats line{{"tool", tool.tool_name}};
     if (tool.frame) line["frame"] = *tool.frame;
     line.update(fields);
+    for (const auto &[step, ms] : tool.progress->take_times())
+        line["ms"][step] = std::round(ms * 1000) / 1000;
     const std::string text = line.dump() + '\n';
     const bool to_stderr = tool.stats == "-";
     const int file =

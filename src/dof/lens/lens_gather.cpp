@@ -145,7 +145,9 @@ void gather_on(TileDevice &device, Gathering &from, std::vector<char> &done) {
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = in_focus_everywhere(ldi, window, options);
-    gather_tiles(prepare(ldi, lens, window, options, coc, progress), options, progress, out);
+    const GatherScene scene = prepare(ldi, lens, window, options, coc, progress);
+    const Timed gathering(progress, "tiles");
+    gather_tiles(scene, options, progress, out);
     return out;
 }
 

@@ -22,7 +22,10 @@ public:
                 const std::function<void(std::size_t, const SplatPicture &)> &done) override {
         unless_lost(tasks.size(), [&] { selective_.gather(scene, tasks, done, report_); });
     }
-    TileReport take_report() override { return std::exchange(report_, {}); }
+    TileReport take_report() override {
+        report_.ms = device_.take_times();
+        return std::exchange(report_, {});
+    }
 
 private:
     template <typename Gather>

@@ -127,7 +127,7 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
         tasks.push_back(all[n]);
         numbers.push_back(n);
     }
-    if (!program_) program_.emplace(device_.program(code, 19, sizeof(lens_kernel::Push)));
+    if (!program_) program_.emplace(device_.program("lens", code, 19, sizeof(lens_kernel::Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     const double turns = std::min(turns_in_pass, device_.most_turns());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {

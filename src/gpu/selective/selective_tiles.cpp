@@ -89,7 +89,7 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
         report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
         return;
     }
-    if (!program_) program_.emplace(device_.program(code, buffers, sizeof(splat_kernel::Push)));
+    if (!program_) program_.emplace(device_.program("selective", code, buffers, sizeof(splat_kernel::Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
         count = tasks_that_fit(scene, tasks.subspan(begin), bytes);

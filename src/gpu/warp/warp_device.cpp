@@ -116,7 +116,10 @@ public:
         }
     }
 
-    DeviceReport take_report() override { return std::exchange(report_, {}); }
+    DeviceReport take_report() override {
+        report_.ms = device_.take_times();
+        return std::exchange(report_, {});
+    }
 
 private:
     static constexpr const char *failed = "the device failed";
@@ -193,7 +196,8 @@ std::array<std::uint32_t, 3> groups_for(std::size_t items, std::size_t per_group
 }
 
 PrefixSum::PrefixSum(Device &device)
-    : device_(device), within_(device.program(within_code, 2, 4)), add_(device.program(add_code, 2, 4)) {}
+    : device_(device), within_(device.program("scan", within_code, 2, 4)),
+      add_(device.program("scan", add_code, 2, 4)) {}
 
 void PrefixSum::run(Buffer &numbers, std::size_t count) {
     const std::size_t blocks = pieces_of(count, std::size_t{scan_block});
@@ -249,10 +253,11 @@ enum StripeWork::Binding : std::size_t {
 };
 
 WarpKernels::WarpKernels(Device &device)
-    : land(device.program(land_code, bindings, 4)), surfaces(device.program(surfaces_code, bindings, 0)),
-      differences(device.program(differences_code, bindings, 0)),
-      vote(device.program(vote_code, bindings, 0)), emit(device.program(emit_code, bindings, 0)),
-      sum(device) {}
+    : land(device.program("land", land_code, bindings, 4)),
+      surfaces(device.program("surfaces", surfaces_code, bindings, 0)),
+      differences(device.program("differences", differences_code, bindings, 0)),
+      vote(device.program("vote", vote_code, bindings, 0)),
+      emit(device.program("emit", emit_code, bindings, 0)), sum(device) {}
 
 StripeWork::StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
                        std::uint32_t most)
