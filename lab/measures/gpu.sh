@@ -16,9 +16,9 @@ row() {
     rm -f stats.json
     local begin=$EPOCHREALTIME
     "${@:3}" --stats stats.json >log 2>&1 || { echo "gpu.sh: ${*:3}: $(tail -n 1 log)" >&2; exit 1; }
-    echo "| $size | $scene | $1 | $(awk -v a="$begin" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }') | $(ms read) | $(ms 'picture|warp') | $(ms tiles) | $(ms upload) | $(ms "$2") | $(ms download) | $(ms write) |"
+    echo "| $size | $scene | $1 | $(awk -v a="$begin" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }') | $(ms read) | $(ms 'picture|warp') | $(ms gather) | $(ms upload) | $(ms "$2") | $(ms download) | $(ms write) |"
 }
-echo "| size | scene | what | whole process, s | read | picture or warp | of it tiles | upload | programs | download | write |"
+echo "| size | scene | what | whole process, s | read | picture or warp | of it gather | upload | programs | download | write |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for size in ${sizes-1920x1080 3840x2160}; do
     for scene in ${scenes-fence macro mirror}; do

@@ -146,7 +146,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = in_focus_everywhere(ldi, window, options);
     const GatherScene scene = prepare(ldi, lens, window, options, coc, progress);
-    const Timed gathering(progress, "tiles");
+    const Timed gathering(progress, "gather");
     gather_tiles(scene, options, progress, out);
     return out;
 }
