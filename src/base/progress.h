@@ -49,17 +49,17 @@ private:
 class Timed {
 public:
     Timed(Progress &progress, std::string step) : progress_(progress), step_(std::move(step)) {}
-    ~Timed() { progress_.spent(step_, ms()); }
+    ~Timed() {
+        progress_.spent(step_, std::chrono::duration<double, std::milli>(Clock::now() - begin_).count());
+    }
     Timed(const Timed &) = delete;
     Timed &operator=(const Timed &) = delete;
-    double ms() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
-    }
 
 private:
+    using Clock = std::chrono::steady_clock;
     Progress &progress_;
     std::string step_;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    Clock::time_point begin_ = Clock::now();
 };
 
 // The work that a device did, and the work that it left to the CPU.

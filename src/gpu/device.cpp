@@ -3,11 +3,11 @@
 
 #include "gpu/device.h"
 
+#include "base/progress.h"
 #include "gpu/vulkan_instance.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <initializer_list>
 #include <memory>
@@ -43,7 +43,7 @@ struct Device::Vulkan {
     double tick_ms = 0;                               // of the device's clock; 0: it has none
     std::optional<vk::raii::QueryPool> begin_and_end; // of a program, in ticks
     std::unique_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
-    std::map<std::string, double> ms;
+    Progress times;
 
     Vulkan(const DeviceInfo &info, const Watch &watch);
 
@@ -70,14 +70,6 @@ struct Device::Vulkan {
         }
     }
 };
-
-// Calls work(), and adds the time that it takes to `ms`.
-template <typename Work>
-void timed(double &ms, const Work &work) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // Runs `work`. Turns what Vulkan throws into DeviceFailed.
 template <typename Work>
@@ -226,13 +218,14 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
             command.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, written, {}, {});
             if (clock) command.writeTimestamp(Stage::eBottomOfPipe, **clock, 1);
         };
-        double waited = 0;
-        timed(waited, [&] { vulkan_->submit(record); });
-        vulkan_->ms[what.name] += clock ? vulkan_->ticked_ms() : waited;
+        std::optional<Timed> waited;
+        if (!clock) waited.emplace(vulkan_->times, what.name);
+        vulkan_->submit(record);
+        if (clock) vulkan_->times.spent(what.name, vulkan_->ticked_ms());
     });
 }
 
-std::map<std::string, double> Device::take_times() { return std::exchange(vulkan_->ms, {}); }
+std::map<std::string, double> Device::take_times() { return vulkan_->times.take_times(); }
 
 namespace {
 
@@ -369,7 +362,8 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
             }
         submit();
     };
-    guarded(info_, [&] { timed(vulkan_->ms["upload"], copy); });
+    const Timed uploading(vulkan_->times, "upload");
+    guarded(info_, copy);
 }
 
 void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t at) {
@@ -386,7 +380,8 @@ void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t a
             std::memcpy(to.data() + done, Mapped(staged.memory).at(), piece);
         }
     };
-    guarded(info_, [&] { timed(vulkan_->ms["download"], copy); });
+    const Timed downloading(vulkan_->times, "download");
+    guarded(info_, copy);
 }
 
 } // namespace sparselens::gpu
