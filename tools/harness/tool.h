@@ -28,9 +28,9 @@ struct ToolContext {
     int threads = 0;                         // 0: all that the process may use
     bool verbose = false;                    // report on stderr what was found and done
     std::optional<std::uint64_t> max_memory; // bytes for reading a file; empty: set by its size
-    std::unique_ptr<Progress> progress;      // never null
-    std::string stats;                       // the file for write_stats(); empty: none
-    std::optional<int> frame;                // the number of the frame in a range
+    std::unique_ptr<Progress> progress = std::make_unique<Progress>(); // never null
+    std::string stats;        // the file for write_stats(); empty: none
+    std::optional<int> frame; // the number of the frame in a range
     // The name that stands for `name`, a word of the command, `later` frames later, also beyond the range. A name of no
     // sequence stays the same. Never null.
     std::function<std::string(const std::string &name, int later)> other_frame = [](const std::string &name,
