@@ -15,9 +15,9 @@ export OIIO_LIBRARY_PATH
 # blocks DOCUMENT LANGUAGE: the contents of all its fenced blocks in that language.
 blocks() { sed -n "/^\`\`\`$2\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/$1"; }
 
-# README.md has at most 800 words, and lines of at most 120 characters except tables and links.
+# README.md has at most 600 words, and lines of at most 120 characters except tables and links.
 words=$(wc -w <"$readme")
-[ "$words" -le 800 ] || fail "README.md has $words words (800 at most)"
+[ "$words" -le 600 ] || fail "README.md has $words words (600 at most)"
 long=$(grep -vE '^\||\]\(' "$readme" | LC_ALL=C.UTF-8 grep -nE '^.{121}' || true)
 [ -z "$long" ] || fail "README.md has lines of more than 120 characters: $long"
 
@@ -99,8 +99,8 @@ done <<<"$rows"
 # The packages for building by hand equal those that the build installs.
 packages() { tr -s ' \\\n' '\n' | grep -v '^$' | sort; }
 by_script=$(sed -nE "/^build='/,/'\$/{s/^build=//;s/'//g;p}" "$source_dir/tools/install-deps.sh" | packages)
-by_hand=$(blocks README.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
-[ "$by_script" = "$by_hand" ] || fail "README.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
+by_hand=$(blocks CONTRIBUTING.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
+[ "$by_script" = "$by_hand" ] || fail "CONTRIBUTING.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
 
 # run DOCUMENT FOLDER: runs its shell examples, except the project's own scripts; traced pictures are small.
 run() {
