@@ -38,6 +38,6 @@ holds "$(decibels matte.rgb.exr alpha.rgb.exr) >= 40" "the matte is the held-out
 holds "$(decibels gained-before.exr gained-after.exr) >= 60" "gains before and after are the same"
 holds "${db[clamped-after.exr]} >= ${db[clamped-before.exr]} + 2" "clamps belong after"
 # The advice on what to render.
-holds "${db[mist-deep.exr]} >= ${db[mist-views.exr]}" "deep volumes are better than views"
+holds "${db[mist-views.exr]} >= ${db[mist-deep.exr]} - 0.5" "five views suffice for a thin mist"
 holds "${db[hair.exr]} >= ${db[hair-alone.exr]} + 0.5" "five views are better for hair"
 holds "${db[glass.exr]} >= ${db[glass-alone.exr]} + 6" "five views are better for glass"
