@@ -228,7 +228,7 @@ TEST(FinishPicture, OverscanIsNotMissing) {
         for (int y = 0; y < grid.height(); ++y)
             for (int x = 0; x < grid.width(); ++x) gathered.at(c, x, y) = within.at(c, x, y);
     TwoHalves halves(gathered);
-    for (const std::uint32_t seed : {1, 2}) halves.add(render(seed));
+    for (const std::uint32_t seed : {1u, 2u}) halves.add(render(seed));
     EXPECT_EQ(halves.missing(), 0u);
 }
 
