@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "chain/colours.h"
 #include "chain/notices.h"
+#include "finish/ask_rays.h"
 #include "finish/finish_picture.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"

@@ -5,10 +5,10 @@
 . "$(dirname "$0")/common.inc" "$1"
 
 device=${device-gpu}
-# ms STEP...: the sums of these steps in the last line of stats.json; of all others without steps.
+# ms STEP[|STEP...]: the milliseconds of these steps together, in the last line of stats.json.
 ms() {
     tail -n 1 stats.json | tr ',{}' '\n' | sed -nE 's/^"([a-z -]+)":([0-9.e+-]+)$/\1\t\2/p' |
-        awk -F '\t' -v names="$*" 'BEGIN { n = split(names, want, "|") }
+        awk -F '\t' -v names="$1" 'BEGIN { n = split(names, want, "|") }
             { for (i = 1; i <= n; ++i) if ($1 == want[i]) sum += $2 } END { printf "%.0f", sum }'
 }
 # row WORDS PASSES COMMAND...: runs it, and prints a row.
@@ -18,7 +18,7 @@ row() {
     "${@:3}" --stats stats.json >log 2>&1 || { echo "gpu.sh: ${*:3}: $(tail -n 1 log)" >&2; exit 1; }
     echo "| $size | $scene | $1 | $(awk -v a="$begin" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }') | $(ms read) | $(ms 'picture|warp') | $(ms gather) | $(ms upload) | $(ms "$2") | $(ms download) | $(ms write) |"
 }
-echo "| size | scene | what | whole process, s | read | picture or warp | of it gather | upload | programs | download | write |"
+echo "| size | scene | what | whole process, s | read | picture or warp | gathering in the picture | upload | programs | download | write |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for size in ${sizes-1920x1080 3840x2160}; do
     for scene in ${scenes-fence macro mirror}; do

@@ -1,4 +1,5 @@
-#include "finish/finish_picture.h"
+#include "finish/ask_rays.h"
+
 #include "finish/tuning.h"
 
 #include <algorithm>
@@ -9,8 +10,8 @@ namespace sparselens {
 
 namespace {
 
-// Pixels that get the same number of rays: how many, the sum of their errors with one ray each, and that of the samples
-// that they have.
+// Pixels that get the same number of rays: how many there are, the sum of their errors with one ray each, and the sum
+// of their samples.
 struct Part {
     double pixels = 0, error = 0, samples = 0;
 
@@ -31,7 +32,7 @@ struct Plan {
                         scale * std::pow(part.error / part.pixels, 1 / (1 + fall)));
     }
     double error(const Part &part) const { return part.error * std::pow(needed(part), -fall); }
-    // Error and rays, the least for the rays that are needed.
+    // The error, plus a price for each ray. needed() makes this least.
     double cost(const Part &part) const {
         return error(part) + fall * std::pow(scale, -1 - fall) * part.pixels * needed(part);
     }
@@ -86,7 +87,7 @@ std::vector<Imath::Box2i> pieces_of(const Grid &lattice, const Plan &plan,
 AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
                    double goal) {
     const double fall = decibels(error) ? fall_of(error, samples.mean) : 1;
-    double of_map = 0; // at least 0 everywhere, so it is more than the picture's
+    double of_map = 0; // the mean of the map, which has no error below 0, and so exceeds the picture's mean
     for (const float e : error.map) of_map += double(e) / double(grid.size());
     if (error.mean > 0) goal *= of_map / error.mean;
     const Tiles blocks(grid.box(), FinishTuning::ask_block_px);

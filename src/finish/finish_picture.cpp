@@ -172,6 +172,12 @@ TwoHalves::TwoHalves(const Image &gathered)
     for (Values &counts : counts_) counts.assign(windows_.grid().size(), 0.0f);
 }
 
+bool TwoHalves::complete() const {
+    for (std::size_t i = 0; i < counts_[0].size(); ++i)
+        if (has_both(i)) return true;
+    return false;
+}
+
 std::size_t TwoHalves::missing() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < counts_[0].size(); ++i)

@@ -44,18 +44,6 @@ double fall_of(const ErrorEstimate &error, const std::array<double, 2> &samples)
 std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
                                      double goal);
 
-// Where more rays are needed. The error of a block falls as a power of its rays (fall_of()), so it is least if rays go
-// as the error of one ray to the power 1 / (1 + fall), and none is taken away.
-struct AskedRays {
-    Values more; // samples that each pixel needs beyond those that it has
-    // A few that cost as much together: pixels of the grid, and an even number of samples.
-    std::vector<std::pair<Imath::Box2i, int>> rectangles;
-};
-
-// `rays`: for each pixel on average, with those that it has; 0: as many as a mean squared error of `goal` takes.
-AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
-                   double goal = 0);
-
 // A picture with the display window of the gathered one; `name` is its file, for messages. A channel `samples` or
 // `sampleCount` tells how many samples each pixel has; Cycles' `Debug Sample Count.X` tells which part of `samples`.
 struct Render {
@@ -77,9 +65,9 @@ public:
     // the same seed, so the halves would not tell the noise. Other noise than samples make gives a doubt.
     void add_noisy(const Render &render);
     const std::vector<std::string> &doubts() const { return doubts_; } // for warnings
-    bool complete() const { return samples().mean[0] > 0; }            // whether pixels have both halves
+    bool complete() const;                                             // whether any pixel has both halves
 
-    RayCounts samples() const;   // the mean of pixels that have both halves; others count as that
+    RayCounts samples() const;   // pixels that lack a half count as the mean of the others
     std::size_t missing() const; // pixels of the display window that stay as gathered
     // The planes of a channel of the gathered picture, for both halves. Empty if a render lacks it. The caller takes
     // them.

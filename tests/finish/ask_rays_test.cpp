@@ -1,5 +1,5 @@
 // Where rays are asked for, in closed form: errors that fall as one over the rays, on the left and on the right.
-#include "finish/finish_picture.h"
+#include "finish/ask_rays.h"
 #include "finish/tuning.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ namespace {
 
 void check(const FinishCommand &options) {
     if (!options.ask.empty() && options.rays == 0 && !options.goal)
-        throw CLI::ValidationError("--ask", "how good or how dear? give --rays or --goal, too");
+        throw CLI::ValidationError("--ask", "needs to know how many rays: give --rays or --goal");
     if (!options.samples.empty() && options.samples.size() != options.renders.size())
         throw CLI::ValidationError("--samples", fmt::format("{} numbers for {} renders: give one for each",
                                                             options.samples.size(), options.renders.size()));
@@ -76,12 +76,13 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
     CLI::Option *ask =
         app.add_option(
                "--ask", options.ask,
-               "Also write how many more samples each pixel needs, and print rectangles that need as many: "
-               "X,Y,WIDTH,HEIGHT SAMPLES, for two renders together")
+               "Also write how many more samples each pixel needs, and print a few rectangles that need "
+               "about as many rays: X,Y,WIDTH,HEIGHT SAMPLES, the samples of two renders together")
             ->type_name("MASK.exr");
     app.add_option(
            "--rays", options.rays,
-           "For --ask: rays per pixel on average, with those of the renders (default: as --goal takes)")
+           "For --ask: rays per pixel on average, those of the renders included (default: as many as --goal "
+           "takes)")
         ->type_name("N")
         ->needs(ask)
         ->check(number(above_0));

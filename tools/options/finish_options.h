@@ -20,7 +20,7 @@ struct FinishCommand {
     int neighbours = 0;          // frames before and after that are used
     std::optional<double> goal;  // dB
     std::string ask;             // the file for a mask of samples; empty: none
-    double rays = 0; // that --ask may give, per pixel, with those of the renders; 0: as `goal` takes
+    double rays = 0; // for `ask`: per pixel, those of the renders included; 0: as many as `goal` takes
     ShowFinished show = ShowFinished::picture;
     ColourOptions colour; // for the output
     std::optional<PixelType> type;

@@ -40,6 +40,17 @@ float smoothed(const Ldi &ldi, std::size_t channel, int x, int y) {
     return sum;
 }
 
+// A view as it is searched, and what it was made of.
+struct Matched {
+    View picture = some_view();
+    ViewSamples samples{picture, picture.image.channels};
+    ViewMapping mapping;
+    MatchedView view{{&samples, &mapping}, scale};
+    const Imath::Box2i data = samples.windows.data;
+
+    explicit Matched(const Imath::V2d &position = {0, 0}) : mapping(position, 100, samples.windows, {}, {}) {}
+};
+
 float own_depth(const Ldi &ldi, int x, int y) {
     const SampleRange samples = ldi.pixel(ldi.windows.index(x, y));
     return samples.size() == 1 ? float(scale / double(ldi.z[samples.front()]))
@@ -47,12 +58,10 @@ float own_depth(const Ldi &ldi, int x, int y) {
 }
 
 TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
-    const View picture = some_view();
-    const ViewSamples samples(picture, picture.image.channels);
-    const Ldi ldi = samples.as_ldi();
-    const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
-    const MatchedView view({&samples, &mapping}, scale);
-    const Imath::Box2i &data = ldi.windows.data;
+    const Matched matched;
+    const MatchedView &view = matched.view;
+    const Imath::Box2i &data = matched.data;
+    const Ldi ldi = matched.samples.as_ldi();
     int known = 0;
     for (int y = data.min.y; y <= data.max.y; ++y)
         for (int x = data.min.x; x <= data.max.x; ++x) {
@@ -69,11 +78,9 @@ TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
 }
 
 TEST(MatchedView, WhatIsForgottenIsMadeAgain) {
-    const View picture = some_view();
-    const ViewSamples samples(picture, picture.image.channels);
-    const ViewMapping mapping({0, 0}, 100, samples.windows, {}, {});
-    MatchedView view({&samples, &mapping}, scale);
-    const Imath::V2i at = samples.windows.data.min + Imath::V2i(1);
+    Matched matched;
+    MatchedView &view = matched.view;
+    const Imath::V2i at = matched.data.min + Imath::V2i(1);
     EXPECT_EQ(view.bytes(), 0u);
     const MatchedView::Pixel before = view.at(at.x, at.y);
     EXPECT_GT(view.bytes(), 0u);
@@ -87,11 +94,10 @@ TEST(MatchedView, WhatIsForgottenIsMadeAgain) {
 // Slow: the mean of the pixels that exist among 2 x 2, repeated beyond the border, with weights 1, 2, 1 along both
 // axes.
 TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
-    const View picture = some_view();
-    const ViewSamples samples(picture, picture.image.channels);
-    const ViewMapping mapping({0.5, 0.25}, 100, samples.windows, {}, {});
-    const MatchedView view({&samples, &mapping}, scale), half = view.half();
-    const Imath::Box2i &data = samples.windows.data;
+    const Matched matched({0.5, 0.25});
+    const ViewSamples &samples = matched.samples;
+    const MatchedView &view = matched.view, half = view.half();
+    const Imath::Box2i &data = matched.data;
     const auto sharp = [&](std::size_t k, int x, int y) {
         const std::size_t i = samples.windows.index(std::clamp(x, data.min.x, data.max.x),
                                                     std::clamp(y, data.min.y, data.max.y));
@@ -131,12 +137,9 @@ TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
 
 // Also at borders between tiles.
 TEST(MatchedView, BetweenPixelsItIsLinear) {
-    const View picture = some_view();
-    const ViewSamples samples(picture, picture.image.channels);
-    const Ldi ldi = samples.as_ldi();
-    const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
-    const MatchedView view({&samples, &mapping}, scale);
-    const Imath::Box2i &data = ldi.windows.data;
+    const Matched matched;
+    const MatchedView &view = matched.view;
+    const Imath::Box2i &data = matched.data;
     for (int y = data.min.y; y < data.max.y; ++y)
         for (int x = data.min.x; x < data.max.x; ++x) {
             MatchedView::Pixel seen;
