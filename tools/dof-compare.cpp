@@ -59,7 +59,7 @@ void add_options(CLI::App &app, Options &options) {
                 words(std::map<std::string, FlipRange>{{"ldr", FlipRange::ldr}, {"hdr", FlipRange::hdr}}));
     CLI::Option *flip_map =
         app.add_option("--flip-map", options.flip_map,
-                       "Write FLIP of each pixel, from 0 to 1: EXR, or PNG and others to look at")
+                       "Write the FLIP of each pixel, from 0 to 1 (EXR, or PNG and others)")
             ->type_name("FILE")
             ->check(output_name(OutputKind::picture))
             ->needs(flip);
@@ -82,7 +82,7 @@ void add_options(CLI::App &app, Options &options) {
                         "dof-compare picture.exr reference.exr another.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
                         "dof-compare picture.exr reference.exr --regions ldi.exr --json"},
-                       {"Write where somebody sees the difference, at any exposure",
+                       {"Write a map of the visible differences, at any exposure",
                         "dof-compare picture.exr reference.exr --flip hdr --flip-map flip.exr"},
                        {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
@@ -155,7 +155,7 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
     const FrameCommands frames(words);
     if (frames.size() < 3)
         throw UsageError(fmt::format(
-            "--frames {}: three frames or more are needed to tell how steady they are", options.frames));
+            "--frames {}: give three frames or more, to measure how steady they are", options.frames));
     TemporalError error;
     std::optional<Windows> windows;    // of the first frame
     std::optional<Imath::M44f> camera; // of the last one that tells it
@@ -178,8 +178,7 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
     }
     if (moves && options.reference.empty())
         warn(tool, options.image +
-                       ": the camera moves, so most pixels change, and the figures do not tell how steady "
-                       "the pictures are: give REF, and compare with its figures");
+                       ": the camera moves, so most pixels change, and the figures do not show how steady the pictures are: give REF, and compare with its figures");
     print(options.json ? temporal_as_json(error.figures()) : temporal_as_table(error.figures()));
 }
 

@@ -160,8 +160,7 @@ void ask(const FinishCommand &options, const FinishedPicture &finished, const Im
 void run(const FinishCommand &options, const ToolContext &tool) {
     if (options.renders.size() < 2)
         throw UsageError(
-            "one render alone cannot tell its noise from what it shows: render the same picture again "
-            "with another seed, and give both");
+            "the noise of a single render is unknown: render the same picture again with another seed, and give both");
     FlatFile file = read(options.gathered, options, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;

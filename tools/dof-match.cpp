@@ -78,8 +78,7 @@ std::optional<MatchedShape> find_shape(Shot &shot, const std::vector<FrameFiles>
         if (const auto shape = match_shape(in, shot.plate(frame), frame.plate, request, *tool.progress))
             return shape;
     }
-    warn(tool, "the plates do not tell the shape of the lens: it needs lamps or edges that are out of focus "
-               "by 6 pixels and more");
+    warn(tool, "the plates do not show the shape of the lens: it needs lamps or edges that are out of focus by 6 pixels and more");
     return {};
 }
 
@@ -167,8 +166,7 @@ void run(const MatchCommand &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Finds the focus distance and the f-stop at which a shot is blurred as its filmed plate",
-                 "dof-match");
+    CLI::App app("Finds the focus distance and the f-stop of a filmed plate", "dof-match");
     MatchCommand options;
     add_match_options(app, options);
     return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });

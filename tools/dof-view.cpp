@@ -73,12 +73,11 @@ void add_pipe_option(CLI::App &app, bool &pipe) {
 void add_options(CLI::App &app, ViewOptions &options) {
     add_picture_making_options(app, options.picture);
     app.add_option("--reference", options.reference, "Picture to compare with (EXR)")->type_name("FILE");
-    app.add_option(
-           "--plate", options.plate,
-           "Filmed plate (EXR) to lie behind the picture; \"match\" finds its lens, as dof-match does")
+    app.add_option("--plate", options.plate,
+                   "Filmed plate (EXR) to show behind the picture; \"match\" finds its lens like dof-match")
         ->type_name("FILE");
     app.add_option("--frames", options.frames,
-                   "Frames of a timeline, e.g. 1-100x2 (default: the files that #### in IN stands for)")
+                   "Frames of the timeline, e.g. 1-100x2 (default: the frames of IN on disk)")
         ->type_name("RANGE")
         ->group("Frames");
     app.add_option("--port", options.port, "Port of this machine; 0: any free port (default: 0)")
@@ -89,7 +88,7 @@ void add_options(CLI::App &app, ViewOptions &options) {
         ->type_name("DIR");
     app.add_flag("--open", options.open, "Open the page in the browser");
     add_pipe_option(app, options.pipe);
-    add_examples(app, {{"Look at an LDI: open the address that is printed in a browser", "dof-view ldi.exr"},
+    add_examples(app, {{"Look at an LDI in a browser, at the address that is printed", "dof-view ldi.exr"},
                        {"Look at a sequence", "dof-view shot.####.ldi.exr --frames 1-48"},
                        {"... beside the ray-traced picture, at a port of your choice",
                         "dof-view ldi.exr --reference reference.exr --port 8080"}});

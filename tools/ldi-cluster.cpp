@@ -28,11 +28,13 @@ void add_options(CLI::App &app, Options &options) {
         ->type_name("OUT.exr")
         ->required()
         ->check(output_name(OutputKind::exr));
-    app.add_option("--tolerance", options.tolerance,
-                   "Merge samples whose circles of confusion differ by less, in pixels (default: 0.25)")
+    app.add_option(
+           "--tolerance", options.tolerance,
+           "Merge samples whose circles of confusion differ by less than this, in pixels (default: 0.25)")
         ->type_name("PX")
         ->check(number(at_least_0));
-    app.add_option("--layers", options.layers, "Keep at most K samples per pixel; 0: no limit (default: 0)")
+    app.add_option("--layers", options.layers,
+                   "Largest number of samples in a pixel; 0: no limit (default: 0)")
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
     add_recolor_option(app, options.recolor);

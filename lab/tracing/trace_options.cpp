@@ -86,7 +86,7 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));
     app.add_option("--plan", options.plan,
-                   "Render only what this plan of ldi-plan asks for, without the centre view and the views "
+                   "Render only the pixels of this plan of ldi-plan, without the centre view and the views "
                    "of --views")
         ->type_name("PLAN.json");
     app.add_option(
@@ -98,11 +98,10 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
                    fmt::format("Samples of a view per pixel of the picture (default: {})", options.samples))
         ->type_name("N")
         ->check(CLI::Range(1, largest_count));
-    app.add_option(
-           "--supersample", options.supersample,
-           fmt::format("Render views and deep pictures at N times the size with 1/N^2 of the samples per "
-                       "pixel, so with as many rays; the reference stays as it is (default: {})",
-                       options.supersample))
+    app.add_option("--supersample", options.supersample,
+                   fmt::format("Render views and deep pictures at N times the size with 1/N^2 of the samples "
+                               "per pixel, so with as many rays; the reference keeps its size (default: {})",
+                               options.supersample))
         ->type_name("N")
         ->check(CLI::Range(1, most_across));
     app.add_option("--reference", options.reference,
@@ -149,8 +148,8 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
         "Open the shutter: the reference and the views have motion blur, but depths are those of the "
         "middle of its time");
     app.add_option("--rolling-shutter", options.rolling_shutter,
-                   "Expose each row for this part of the shutter's time in pictures with motion blur, the "
-                   "top row first, the bottom row last (default: 1, all rows for all of the time)")
+                   "Part of the shutter's time for which each row is exposed in pictures with motion blur, "
+                   "the top row first, the bottom row last (default: 1, all rows all the time)")
         ->type_name("D")
         ->check(CLI::Range(least_rolling_duration, 1.0));
     app.add_option("--moments", options.moments,
@@ -168,10 +167,10 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                options.seed))
         ->type_name("N")
         ->check(CLI::Range(0, largest_seed));
-    app.add_option(
-           "--light", options.light,
-           "sun: parallel light; area: a square light, one shadow ray per sample; for denoisers, of the "
-           "same rays: albedo: colours without light; normal: X, Y and Z of normals (default: sun)")
+    app.add_option("--light", options.light,
+                   "Light of the scene. sun: parallel light; area: a square light, one shadow ray per "
+                   "sample. Without light, from the same rays, for denoisers: albedo: colours; normal: X, Y "
+                   "and Z of normals (default: sun)")
         ->type_name("sun|area|albedo|normal")
         ->transform(words(lights));
     app.add_option_function<std::vector<std::string>>(

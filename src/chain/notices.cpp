@@ -40,28 +40,23 @@ constexpr std::array table{
     Words{NoticeKind::colour_space, note, "{file}: colour space {0}"},
     Words{
         NoticeKind::unnamed_chromaticities, warning,
-        "{file}: its chromaticities are of no colour space that the colour configuration names; its colours "
-        "are taken for scene-linear: give `{parameter}`"},
+        "{file}: the colour configuration has no space with its chromaticities, so its colours are taken for scene-linear; if they are not, give `{parameter}`"},
     Words{NoticeKind::unnamed_space, warning,
-          "{file}: its {0} is of no colour space that the colour configuration names; its colours are taken "
-          "for scene-linear: give `{parameter}`"},
+          "{file}: the colour configuration has no space for its {0}, so its colours are taken for scene-linear; if they are not, give `{parameter}`"},
     Words{NoticeKind::no_colorconfig, warning,
-          "{0}; EXR is taken as linear: mend $OCIO, or name a configuration by `{parameter}`"},
+          "{0}; EXR is taken as linear: correct $OCIO, or name a configuration by `{parameter}`"},
     Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
     Words{NoticeKind::converted, warning,
           "{file}: its colours are in another space than those of {0}, and are converted"},
     Words{NoticeKind::changed_data, warning,
-          "{file}: its compression is made for colours and changes the data of channel {0}: give "
-          "`{parameter}=zip`"},
+          "{file}: its compression is for colours, and changes the data of channel {0}: give `{parameter}=zip`"},
     Words{NoticeKind::picture_warning, warning, "{0}"},
     Words{NoticeKind::coverage_differs, warning,
-          "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same "
-          "objects and pixel filter. What it alone covers lies at infinity"},
+          "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same objects and pixel filter. Coverage that it alone has lies at infinity"},
     Words{NoticeKind::without_colours, warning,
-          "{file}: has no colours for {1} pixels of {0}, which are left out; render as much overscan as that "
-          "has"},
+          "{file}: has no colours for {1} pixels of {0}, which are left out: render as much overscan as {0} has"},
     Words{NoticeKind::light_at_infinity, note,
-          "{file}: {0} pixels show light or coverage at infinity, where no sample is"},
+          "{file}: {0} pixels have light or coverage without a sample; it lies at infinity"},
     Words{NoticeKind::regions, note,
           "the regions are those of a lens of radius {0:g}, focal length {1:g} pixels, focused at {2:g}"},
     Words{NoticeKind::framing, note,
@@ -73,9 +68,8 @@ constexpr std::array table{
           "{0} samples to {1}, by inverse depth alone, because the lens is unknown"},
     Words{NoticeKind::focused, note, "the focus distance is {0:g}, the depth of pixel {1:g},{2:g}"},
     Words{NoticeKind::wide_lens, warning,
-          "the aperture is larger than the one the views were rendered for; what it sees beyond them is "
-          "unknown"},
-    Words{NoticeKind::round_aperture, warning, "method {0} ignores the aperture's shape; using a disc"},
+          "the aperture is larger than the one that the views were rendered for; parts of the picture are unknown"},
+    Words{NoticeKind::round_aperture, warning, "method {0} ignores the aperture's shape, and takes a disc"},
     Words{NoticeKind::overscan, note,
           "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there"},
     Words{
@@ -87,13 +81,13 @@ constexpr std::array table{
           "by {0:.1f} pixels or more since the frame before"},
     Words{NoticeKind::on_cpu, note, "device: the CPU"},
     Words{NoticeKind::on_device, note, "device: {0}"},
-    Words{NoticeKind::no_vulkan, note, "no device by Vulkan: {0}"},
+    Words{NoticeKind::no_vulkan, note, "Vulkan finds no device: {0}"},
     Words{NoticeKind::gather_unusable, warning, "{0}; the CPU gathers"},
-    Words{NoticeKind::gather_failed, warning, "{0}; the CPU gathers what it has not"},
+    Words{NoticeKind::gather_failed, warning, "{0}; the CPU gathers the remaining tiles"},
     Words{NoticeKind::gathered_tiles, note, "tiles gathered by the device: {0} of {1}"},
     Words{NoticeKind::left_tiles, note, "tiles gathered by the CPU: {0} ({1})"},
     Words{NoticeKind::warp_unusable, warning, "{0}; the CPU warps"},
-    Words{NoticeKind::warp_failed, warning, "{0}; the CPU warps what it has not"},
+    Words{NoticeKind::warp_failed, warning, "{0}; the CPU warps the remaining rows"},
     Words{NoticeKind::warped_rows, note, "rows warped by the device: {0} of {1}"},
     Words{NoticeKind::left_rows, note, "rows warped by the CPU: {0} ({1})"},
     Words{NoticeKind::uploaded, note, "uploaded to the device: {0:.1f} MB"},
@@ -125,10 +119,10 @@ std::string words_of(const Notice &notice) {
 namespace {
 
 const char *fate_of(const Channel &channel) {
-    if (is_in_matte(channel)) return "Cryptomatte: ids are copied, their coverage goes through the lens";
+    if (is_in_matte(channel)) return "Cryptomatte: ids are copied, the lens blurs their coverage";
     if (holds_ids(channel)) return "ids: those of the front sample, never averaged";
-    if (is_light(channel)) return "light: goes through the lens";
-    return "data: averaged as light is, but no highlight and no colour";
+    if (is_light(channel)) return "light: the lens blurs it";
+    return "data: averaged like light, without highlights and colour management";
 }
 
 struct Layer {

@@ -80,13 +80,13 @@ ParameterRows<DepthOptions> depth_parameters() {
                "hyperbolic: the same, but linear in 1 / z, as in a depth buffer (default: z)"),
           in(&DepthOptions::meaning)},
          {number("near", "D",
-                 "With `depth=normalized` and hyperbolic, the depth of 0 (default: the near attribute of the "
-                 "file)",
+                 "Depth of the value 0 with `depth=normalized` and hyperbolic, in scene units (default: as "
+                 "the file says)",
                  at_least_0_or_inf),
           in(&DepthOptions::near)},
          {number("far", "D",
-                 "Depths beyond this are sky; with `depth=normalized` and hyperbolic, the depth of 1 "
-                 "(default: 1e10)",
+                 "Depth from which all is sky, in scene units; the depth of the value 1 with "
+                 "`depth=normalized` and hyperbolic (default: 1e10)",
                  at_least_0_or_inf),
           in(&DepthOptions::far)},
          {text("depth-channel", "NAME",
@@ -99,10 +99,8 @@ ParameterRows<DepthOptions> depth_parameters() {
 
 ParameterRows<PictureChoice> choice_parameters() {
     static const auto rows = all<PictureChoice>(
-        {{in_group("Colour",
-                   flag("unpremultiplied",
-                        "Multiply the colours of the input by its coverage (A); the default expects "
-                        "multiplied colours")),
+        {{in_group("Colour", flag("unpremultiplied", "Multiply the colours of the input by its coverage A "
+                                                     "(default: they are multiplied already)")),
           in(&PictureChoice::unpremultiplied)},
          {text("stereo-view", "NAME", "Stereo view to read, e.g. right (default: the file's first)"),
           in(&PictureChoice::stereo_view)},
@@ -117,11 +115,11 @@ ParameterRows<PictureChoice> choice_parameters() {
 ParameterRows<PictureChoice> kind_parameters() {
     static const auto rows = all<PictureChoice>(
         {{text("data", "LAYER,...",
-               "Layers or channels that hold data, such as positions, and not light; -v lists what each is "
-               "taken for (default: by their names)"),
+               "Layers or channels to treat as data, such as positions, not as light (default: by their "
+               "names; -v lists the kind of each)"),
           in(&PictureChoice::data)},
          {text("light", "LAYER,...",
-               "Layers or channels that hold light, though their names are those of data"),
+               "Layers or channels to treat as light, whatever their names (default: none)"),
           in(&PictureChoice::light)}},
         "Colour", "", PythonCall::open_ldi);
     return rows;
@@ -142,8 +140,8 @@ ParameterRows<PictureChoice> depth_file_parameters() {
 ParameterRows<DepthOptions> photograph_parameters() {
     static const auto rows = all<DepthOptions>(
         {{flag("disparity",
-               "The depth is a disparity, 0 to 1 or integers, white near, as programs estimate it from a "
-               "photograph (default if `depth_file` is not an EXR file)"),
+               "Read the depth as a disparity, white near, 0 to 1 or integers, as programs estimate it from "
+               "a photograph (default: only if `depth_file` is not an EXR file)"),
           [](const Parameter &, const std::string &, DepthOptions &options) {
               options.meaning = DepthMeaning::disparity;
               return true;
@@ -184,8 +182,8 @@ using namespace parameter_rows;
 ParameterRows<WindowOptions> window_parameters() {
     const Parameter filter =
         text("pixel-filter", "box|blackman-harris|gaussian[:WIDTH]",
-             "With `supersample`, the renderer's pixel filter for the picture, and its width "
-             "as in Cycles (default: as the file says, else box; width 1.5)",
+             "Pixel filter of the picture with `supersample`, and its width in pixels, as in Cycles "
+             "(default: as the file says, else box; width 1.5)",
              Form::text, "box, blackman-harris or gaussian, the latter two with :WIDTH in pixels if wanted");
     const auto read_filter = [](const Parameter &, const std::string &text, WindowOptions &windows) {
         windows.filter = pixel_filter_of(text);
@@ -206,7 +204,8 @@ ParameterRows<WindowOptions> window_parameters() {
           in(&WindowOptions::supersample)},
          {filter, read_filter},
          {text("region", "X0,Y0,X1,Y1",
-               "Make only these pixels of the full-size picture, in EXR coordinates, with X1 and Y1 included",
+               "Make only these pixels of the full-size picture, in EXR coordinates, X1 and Y1 included "
+               "(default: all)",
                Form::box, "X0,Y0,X1,Y1 (left, top, right and bottom, all included)"),
           in(&WindowOptions::region)}},
         "Windows");
@@ -222,7 +221,7 @@ ParameterOf<PictureRequest> method_row() {
         what.push_back(fmt::format("{}: {}", method.name, method.what));
     }
     return {word("method", names,
-                 fmt::format("Gather method. {} (default: {})", fmt::join(what, "; "), names.front())),
+                 fmt::format("Method of the gather. {} (default: {})", fmt::join(what, "; "), names.front())),
             [](const Parameter &row, const std::string &text, PictureRequest &request) {
                 const auto methods = gather_methods();
                 const std::size_t i = index_of(row, text);
@@ -239,8 +238,9 @@ Rows<PictureRequest> gather_rows() {
     constexpr auto gather = &PictureOptions::gather;
     const PictureOptions usual;
     const Rows<PictureRequest> lens{
-        {on_page(
-             word("quality", {"draft", "normal", "final"}, "Trade of error against time (default: normal)")),
+        {on_page(word("quality", {"draft", "normal", "final"},
+                      "Quality of the blur: final takes more lens points and more time, draft less (default: "
+                      "normal)")),
          [](const Parameter &row, const std::string &text, PictureRequest &request) {
              Quality &quality = request.picture.gather.lens.quality;
              const bool is_word = read_place(row, text, quality);
@@ -248,44 +248,47 @@ Rows<PictureRequest> gather_rows() {
              return is_word;
          }},
         {whole("lens-samples", "N",
-               "Number of lens points in every tile; 0: chosen by quality and picture (default: 0)", 0,
+               "Number of lens points in every tile; 0: as `quality` and the picture need (default: 0)", 0,
                1 << 20),
          in(picture, gather, &GatherOptions::lens, &LensGatherOptions::lens_samples)},
         {number("layer-tolerance", "PX",
-                fmt::format("First merge layers of a pixel whose circles of confusion differ by less than "
-                            "this, in pixels; 0: merge none (default: {})",
+                fmt::format("Merge layers of a pixel whose circles of confusion differ by less than this, in "
+                            "pixels; 0: merge none (default: {})",
                             usual.layer_tolerance),
                 at_least_0),
          in(picture, &PictureOptions::layer_tolerance)},
         {text("holdout", "DEEP.exr",
-              "Deep EXR that hides what is behind it, and is not shown; it stays sharp", Form::ldi),
+              "Deep EXR that hides what is behind it, but is not shown; its edges stay sharp (default: none)",
+              Form::ldi),
          in(&PictureRequest::holdout)},
-        {flag("holdout-defocused", "Put the holdout out of focus, like the rest of the scene"),
+        {flag("holdout-defocused", "Blur the holdout like the rest of the scene (default: keep it sharp)"),
          in(picture, &PictureOptions::holdout_defocused)}};
     const Rows<PictureRequest> selective{
         {whole("layers", "K",
-               fmt::format("Layers kept apart in each pixel (default: {})", usual.gather.layers), 1, 4096),
+               fmt::format("Largest number of layers in a pixel (default: {})", usual.gather.layers), 1,
+               4096),
          in(picture, gather, &GatherOptions::layers)}};
     const Rows<PictureRequest> any{
-        {text("device", "", "Device that gathers, for the methods lens and selective", Form::device),
+        {text("device", "", "Device for the methods lens and selective", Form::device),
          in(&PictureRequest::device)},
-        {keyed(text("focus-pixel", "X,Y", "Focus on the front surface in this pixel, in EXR coordinates",
-                    Form::pixel, "X,Y in whole pixels (e.g. 320,180)")),
+        {keyed(
+             text("focus-pixel", "X,Y",
+                  "Focus on the front surface in this pixel, in EXR coordinates; instead of `focus_distance`",
+                  Form::pixel, "X,Y in whole pixels (e.g. 320,180)")),
          in(&PictureRequest::focus_pixel)},
-        {keyed(on_page(number(
-             "blur", "PX",
-             "Strongest blur of a photograph, whose depth is a `disparity`: the radius, in pixels, of the "
-             "disc that a white pixel of the depth becomes when black is in focus",
-             at_least_0))),
+        {keyed(on_page(number("blur", "PX",
+                              "Strongest blur of a photograph with a `disparity`: the radius, in pixels, of "
+                              "the disc that a white pixel of the depth becomes when black is in focus",
+                              at_least_0))),
          in(&PictureRequest::blur)},
         {text("shutter-curve", "box|triangle|gaussian|FILE",
-              "How the moments of a shutter count, whose LDIs IN names by %s. FILE: lines of a time, from 0 "
-              "to 1, and a value (default: box)",
+              "Weights of the moments of a shutter (%s in IN). FILE: lines of a time, from 0 (opening) to 1 "
+              "(closing), and a weight (default: box)",
               Form::file),
          in(&PictureRequest::shutter_curve)},
         {number("rolling-shutter", "D",
-                "Expose each row of the picture for this part of the shutter's time, the top row first, "
-                "the bottom row last (default: 1, all rows for all of the time)",
+                "Part of the shutter's time for which each row is exposed, the top row first, the bottom row "
+                "last (default: 1, all rows all the time)",
                 rolling_duration),
          in(&PictureRequest::rolling_shutter)},
         {text("channels", "LIST", "Channels or layers to gather, comma-separated (default: all)", Form::list),
@@ -297,11 +300,11 @@ Rows<PictureRequest> gather_rows() {
 }
 
 Rows<PictureRequest> shown_rows() {
-    const Parameter point = text(
-        "lens-point", "X,Y",
-        "Show what this point of the lens sees, X right and Y up of its middle, 1 at the rim. Tints areas "
-        "that no view saw magenta; unknown areas are black",
-        Form::pair, "X,Y at most 1 from the middle (e.g. 0.5,-0.5)");
+    const Parameter point =
+        text("lens-point", "X,Y",
+             "Show the picture through this point of the lens alone, X right and Y up of its middle, 1 at "
+             "the rim. Areas that no view saw are tinted magenta; unknown areas are black",
+             Form::pair, "X,Y at most 1 from the middle (e.g. 0.5,-0.5)");
     const auto read_point = [](const Parameter &row, const std::string &text, PictureRequest &request) {
         constexpr double most_rounded = 1.01; // the length of a rim point rounded to two digits
         Imath::V2d at;
@@ -351,7 +354,7 @@ Rows<GivenLooks> look_rows() {
     std::vector<std::string> types;
     for (const auto &type : chromatic_types()) types.emplace_back(type.first);
     Parameter tilt = text("tilt", "X,Y",
-                          "Tilt of the plane of focus in degrees; above 0 it is nearer at the right (X) and "
+                          "Tilt of the plane of focus, in degrees; above 0 it is nearer at the right (X) and "
                           "at the top (Y) (default: 0,0)",
                           Form::pair, "two numbers between -89 and 89 degrees (e.g. 10,0)");
     const auto read_tilt = [](const Parameter &row, const std::string &text, GivenLooks &given) {
@@ -361,8 +364,9 @@ Rows<GivenLooks> look_rows() {
         given.values.tilt_y = angles.y;
         return is_tilt(angles.x) && is_tilt(angles.y);
     };
-    Parameter preset = text("lens", "FILE",
-                            "Lens file with looks (JSON, see share/lenses); options override it", Form::file);
+    Parameter preset = text(
+        "lens", "FILE", "Lens file with looks (JSON, see share/lenses); options override it (default: none)",
+        Form::file);
     preset.control.label = "lens by name"; // a page knows the lenses of share/lenses alone
     const Rows<GivenLooks> lens{{preset, in(&GivenLooks::lens_file)}};
     const Rows<GivenLooks> others{
@@ -371,14 +375,14 @@ Rows<GivenLooks> look_rows() {
                  {"cat's eye darkens"}),
          in(&GivenLooks::values, &LookValues::cat_eye_darkening)},
         {on_page(word("axial-chromatic-type", types,
-                      "Colours that focus elsewhere than green. red-blue: red behind and blue in front; "
+                      "Colours that do not focus with green. red-blue: red behind and blue in front; "
                       "blue-yellow: blue in front; green-magenta: red and blue behind (default: red-blue)"),
                  {"fringe colours"}),
          in(&GivenLooks::values, &LookValues::chromatic_type)},
         {keyed(on_page(tilt, {"tilted focus, \u00b0"})), read_tilt},
         {text("aperture", "FILE",
-              "Picture of the aperture (EXR, grey or RGB weights); its content spans the lens from rim to "
-              "rim",
+              "Picture of the aperture (EXR, grey or RGB weights), which spans the lens from rim to rim; "
+              "instead of blades",
               Form::file),
          in(&GivenLooks::aperture_file)}};
     return joined({all(joined({lens, numbers, others}), "Lens looks", "lens"),

@@ -219,7 +219,7 @@ void set_blur(Camera &camera, const PictureRequest &request, const OpenedLdi &in
                          ": is a photograph, which needs no lens: give the largest radius of its blur in "
                          "pixels (`blur=40`)");
     if (!camera.focus_distance && !request.focus_pixel)
-        throw UsageError(in.name + ": what is sharp is unknown: give a pixel of it (`focus_pixel=X,Y`)");
+        throw UsageError(in.name + ": the focus is unknown: give a pixel in focus (`focus_pixel=X,Y`)");
     camera.lens_radius = radius_of_blur(*request.blur, resolve_focal_px(camera, in.ldi.windows));
 }
 

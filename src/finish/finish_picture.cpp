@@ -275,7 +275,7 @@ std::array<Values, 2> TwoHalves::take(std::size_t channel) {
 
 FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
     if (!picture.rays.complete())
-        throw Error("one render alone cannot tell its noise: give two or more of different seeds");
+        throw Error("the noise of a single render is unknown: give two or more with different seeds");
     FinishedPicture finished;
     const auto colours = find_rgb(picture.gathered.channels);
     if (!all_found(colours) ||

@@ -18,18 +18,16 @@ struct Blades {
     static constexpr auto rows() {
         using Row = LookRow<Blades>;
         return std::array{
-            Row{{"blades", "N",
-                 "Number of blades, which is the number of corners of the aperture; 0: round (default: 0)",
+            Row{{"blades", "N", "Number of blades, from 3 to 16; 0: a round aperture (default: 0)",
                  &Blades::blades, blade_count},
                 {"blades", 0, 16, 0, 3}},
             Row{{"blade-curvature", "C",
-                 "Curvature of the blades, from 0, straight, to 1, round (default: 0)", &Blades::curvature,
+                 "Curvature of the blades, from 0 (straight) to 1 (round) (default: 0)", &Blades::curvature,
                  from_0_to_1},
                 {"blade roundness", 0, 1}},
             Row{{"blade-rotation", "DEG",
-                 "Rotation of the blades, in degrees counter-clockwise for a lamp behind focus; 0: the "
-                 "middle "
-                 "of a side is at the right (default: 0)",
+                 "Rotation of the blades, in degrees, counter-clockwise for a lamp behind focus; 0: the "
+                 "middle of a side is at the right (default: 0)",
                  &Blades::rotation, angle},
                 {"blade rotation, \u00b0", -180, 180}},
         };
@@ -70,7 +68,7 @@ struct CatEye {
         constexpr NumberRange to_100{"a number from 0 to 100", [](double v) { return v >= 0 && v <= 100; }};
         return std::array{LookRow<CatEye>{{"cat-eye", "A",
                                            "Cat's eye: a second circle cuts the aperture, displaced by A "
-                                           "radii at the picture's corner (default: 0)",
+                                           "radii at the picture's corners, from 0 to 100 (default: 0)",
                                            &CatEye::cat_eye, to_100},
                                           {"cat's eye", 0, 3}}};
     }
@@ -86,12 +84,12 @@ struct Spherical {
     std::optional<double> spherical = {};
 
     static constexpr auto rows() {
-        return std::array{LookRow<Spherical>{{"spherical", "S",
-                                              "Spherical aberration from -1 to 1: above 0, discs behind "
-                                              "focus have bright rims and those in front "
-                                              "bright cores (default: 0)",
-                                              &Spherical::spherical, from_minus_1_to_1},
-                                             {"soap bubbles", -1, 1}}};
+        return std::array{
+            LookRow<Spherical>{{"spherical", "S",
+                                "Spherical aberration, from -1 to 1: above 0, discs behind focus have bright "
+                                "rims, those in front bright cores (default: 0)",
+                                &Spherical::spherical, from_minus_1_to_1},
+                               {"soap bubbles", -1, 1}}};
     }
     void act(const LookContext &, LensLooks &looks) const {
         for (double &of_colour : looks.aperture.spherical.of) of_colour += spherical.value_or(0);
@@ -111,8 +109,8 @@ struct Spherochromatism {
     static constexpr auto rows() {
         return std::array{LookRow<Spherochromatism>{
             {"spherochromatism", "K",
-             "Spherical aberration that is K less for red and K more for blue than for green, from -1 to 1: "
-             "above 0, discs behind focus have blue rims and those in front red rims (default: 0)",
+             "Spherical aberration that is K less for red and K more for blue, from -1 to 1: above 0, discs "
+             "behind focus have blue rims, those in front red rims (default: 0)",
              &Spherochromatism::spherochromatism, from_minus_1_to_1},
             {"coloured rims", -1, 1}}};
     }

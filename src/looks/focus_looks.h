@@ -14,9 +14,8 @@ struct FieldCurvature {
 
     static constexpr auto rows() {
         return std::array{LookRow<FieldCurvature>{{"field-curvature", "K",
-                                                   "Bends the plane of focus, from -1 to 1: 1/d is 1 + K "
-                                                   "times as large at the picture's corners (default: "
-                                                   "0)",
+                                                   "Curvature of the plane of focus, from -1 to 1: at the "
+                                                   "corners, 1/d is 1 + K times as large (default: 0)",
                                                    &FieldCurvature::field_curvature, from_minus_1_to_1},
                                                   {"curved focus", -1, 1}}};
     }
@@ -30,12 +29,12 @@ struct Astigmatism {
     std::optional<double> astigmatism = {};
 
     static constexpr auto rows() {
-        return std::array{LookRow<Astigmatism>{{"astigmatism", "A",
-                                                "Separates the focus of rays along and across a line through "
-                                                "the axis, from -1 to 1: at the corners 1/d "
-                                                "is 1 + A and 1 - A times as large (default: 0)",
-                                                &Astigmatism::astigmatism, from_minus_1_to_1},
-                                               {"astigmatism", -1, 1}}};
+        return std::array{LookRow<Astigmatism>{
+            {"astigmatism", "A",
+             "Astigmatism, from -1 to 1: at the corners, 1/d is 1 + A times as large for rays along a line "
+             "through the axis, and 1 - A times for rays across it (default: 0)",
+             &Astigmatism::astigmatism, from_minus_1_to_1},
+            {"astigmatism", -1, 1}}};
     }
     void act(const LookContext &, LensLooks &looks) const { looks.astigmatism = astigmatism.value_or(0); }
 };
@@ -76,12 +75,12 @@ struct AxialChromatic {
          {"green-magenta", ChromaticType::green_magenta}}};
     static constexpr auto rows() {
         constexpr NumberRange within_5{"a number from -5 to 5", [](double v) { return std::abs(v) <= 5; }};
-        return std::array{LookRow<AxialChromatic>{{"axial-chromatic", "MM",
-                                                   "Colour fringes: where green is sharp, red focuses this "
-                                                   "far behind the sensor and blue as far in front "
-                                                   "of it, from -5 to 5 mm (default: 0)",
-                                                   &AxialChromatic::axial_chromatic, within_5},
-                                                  {"colour fringes, mm", -5, 5}}};
+        return std::array{LookRow<AxialChromatic>{
+            {"axial-chromatic", "MM",
+             "Colour fringes, in millimetres, from -5 to 5: where green is sharp, red focuses this far "
+             "behind the sensor and blue as far in front of it (default: 0)",
+             &AxialChromatic::axial_chromatic, within_5},
+            {"colour fringes, mm", -5, 5}}};
     }
     void act(const LookContext &context, LensLooks &looks) const; // needs the focal length
 };
@@ -98,12 +97,12 @@ struct Breathing {
 
     static constexpr auto rows() {
         constexpr NumberRange to_2{"a number from 0 to 2", [](double v) { return v >= 0 && v <= 2; }};
-        return std::array{LookRow<Breathing>{{"breathing", "B",
-                                              "Focus breathing: magnification by focusing, from 0 to 2; 1 is "
-                                              "a thin lens that moves as a whole "
-                                              "(default: 0)",
-                                              &Breathing::breathing, to_2},
-                                             {"focus breathing", 0, 2}}};
+        return std::array{
+            LookRow<Breathing>{{"breathing", "B",
+                                "Focus breathing, how much focusing magnifies the picture, from 0 to 2; 1: a "
+                                "thin lens that moves as a whole (default: 0)",
+                                &Breathing::breathing, to_2},
+                               {"focus breathing", 0, 2}}};
     }
     // Needs the focal length. Throws UsageError if the lens cannot focus that near.
     void act(const LookContext &context, LensLooks &looks) const;

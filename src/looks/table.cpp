@@ -21,16 +21,16 @@ std::vector<LookNumber> numbers_of(const LookTable<Look...> &) {
 constexpr NumberRange gain{"a number from 1 to 1000", [](double v) { return v >= 1 && v <= 1000; }};
 
 constexpr std::array highlights{
-    LookNumber{
-        {"highlight-gain", "G",
-         "Make lights above the threshold up to G times as bright before the lens sees them, 1 to 1000 "
-         "(default: 1)",
-         &LookValues::highlight_gain, gain},
-        {"brighter lights", 1, 50, 1}},
-    LookNumber{{"highlight-threshold", "Y", "Scene-linear luminance above which lights grow (default: 1)",
+    LookNumber{{"highlight-gain", "G",
+                "Make lights up to G times as bright before the gather, from 1 to 1000 (default: 1)",
+                &LookValues::highlight_gain, gain},
+               {"brighter lights", 1, 50, 1}},
+    LookNumber{{"highlight-threshold", "Y",
+                "Scene-linear luminance above which lights become brighter (default: 1)",
                 &LookValues::highlight_threshold, at_least_0},
                {"lights: above", 0, 20, 1}},
-    LookNumber{{"highlight-knee", "Y", "Luminance over which the gain sets in softly (default: 1)",
+    LookNumber{{"highlight-knee", "Y",
+                "Range of luminance above the threshold over which the gain rises (default: 1)",
                 &LookValues::highlight_knee, above_0},
                {"lights: softness", 0.001, 20, 1}},
 };

@@ -103,8 +103,7 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     const Pictures renders = pictures_of(rays, "rays");
     if (renders.size() < 2)
         throw UsageError(
-            "rays: one render alone cannot tell its noise from what it shows: give two or more, each of "
-            "another seed");
+            "rays: the noise of a single render is unknown: give two or more, each with another seed");
     const std::vector<double> samples = samples_of(keywords.take("samples"), renders);
     check_count("samples", samples.size(), renders.size());
     const Pictures denoised = pictures_of(keywords.take("denoised"), "denoised");

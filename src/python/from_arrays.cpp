@@ -24,7 +24,7 @@ std::optional<Imath::Box2i> window_from(Keywords &keywords, const char *name) {
     const auto box = keywords.box(name);
     constexpr int most = std::numeric_limits<int>::max() / 2;
     if (box && (std::min(box->min.x, box->min.y) <= -most || std::max(box->max.x, box->max.y) >= most))
-        throw UsageError(fmt::format("{}: lies beyond {} pixels, which no file can say", name, most));
+        throw UsageError(fmt::format("{}: is outside the range of EXR windows, +-{} pixels", name, most));
     return box;
 }
 

@@ -15,16 +15,20 @@ namespace {
 
 using LensNumber = NumberParameter<LensValues>;
 constexpr std::array numbers{
-    LensNumber{"focal-length", "MM", "Focal length", &LensValues::focal_length_mm, above_0},
-    LensNumber{"sensor-width", "MM", "Width of the film back; it spans the display window",
+    LensNumber{"focal-length", "MM", "Focal length, in millimetres (default: that of the input)",
+               &LensValues::focal_length_mm, above_0},
+    LensNumber{"sensor-width", "MM",
+               "Width of the sensor, in millimetres, across the display window (default: that of the input)",
                &LensValues::sensor_width_mm, above_0},
-    LensNumber{"fstop", "N", "F-number, or inf", &LensValues::fstop, above_0_or_inf},
+    LensNumber{"fstop", "N", "F-number, or inf (default: that of the input)", &LensValues::fstop,
+               above_0_or_inf},
     LensNumber{"lens-radius", "R", "Radius of the aperture, in scene units; instead of `fstop`",
                &LensValues::lens_radius, at_least_0},
-    LensNumber{"focus-distance", "D", "Focus distance, in scene units, or inf", &LensValues::focus_distance,
-               above_0_or_inf},
-    LensNumber{"scene-unit", "METRES", "Length of a scene unit (default: 1)", &LensValues::scene_unit,
-               above_0},
+    LensNumber{"focus-distance", "D", "Focus distance, in scene units, or inf (default: that of the input)",
+               &LensValues::focus_distance, above_0_or_inf},
+    LensNumber{"scene-unit", "METRES",
+               "Length of a scene unit, in metres (default: that of the input, else 1)",
+               &LensValues::scene_unit, above_0},
 };
 
 // Collects the unknown values, the reasons, and the parameters to give.

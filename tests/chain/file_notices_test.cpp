@@ -24,13 +24,13 @@ TEST(LayerNotes, OneLineALayer) {
     find_kinds(channels);
     EXPECT_EQ(layer_notes(channels),
               (std::vector<std::string>{
-                  "layer of the picture: light: goes through the lens",
-                  "layer fg.DiffCol: light: goes through the lens",
-                  "layer fg.Vector: data: averaged as light is, but no highlight and no colour",
+                  "layer of the picture: light: the lens blurs it",
+                  "layer fg.DiffCol: light: the lens blurs it",
+                  "layer fg.Vector: data: averaged like light, without highlights and colour management",
                   "layer fg.IndexOB: ids: those of the front sample, never averaged",
                   "layer id: ids: those of the front sample, never averaged",
-                  "layer N: data: averaged as light is, but no highlight and no colour",
-                  "layer CryptoObject: Cryptomatte: ids are copied, their coverage goes through the lens"}));
+                  "layer N: data: averaged like light, without highlights and colour management",
+                  "layer CryptoObject: Cryptomatte: ids are copied, the lens blurs their coverage"}));
 }
 
 } // namespace

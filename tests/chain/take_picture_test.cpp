@@ -165,7 +165,7 @@ TEST(TakePicture, TakesTheApertureForRoundWhereTheMethodKnowsNoLooks) {
     EXPECT_EQ(taken(in, request, &told).image.values, round.values);
     ASSERT_TRUE(told.find(NoticeKind::round_aperture));
     EXPECT_EQ(words_of(*told.find(NoticeKind::round_aperture)),
-              "method selective ignores the aperture's shape; using a disc");
+              "method selective ignores the aperture's shape, and takes a disc");
 }
 
 TEST(TakePicture, HasTheChannelsThatAreAskedFor) {

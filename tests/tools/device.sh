@@ -33,10 +33,10 @@ LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulk
     "${warp[@]}" -o x.exr --device gpu
 # -v reports Vulkan's problems: a loader that cannot be loaded, drivers that do not work.
 without_loader 1 "$gather" input.exr "${lens[@]}" -o x.exr --device gpu -v
-grep -Eq '^dof-gather: no device by Vulkan: .*load' stderr || fail "a broken loader: $(cat stderr)"
+grep -Eq '^dof-gather: Vulkan finds no device: .*load' stderr || fail "a broken loader: $(cat stderr)"
 echo '{"file_format_version": "1.0.0", "ICD": {"library_path": "./none.so", "api_version": "1.3.0"}}' >broken/driver.json
 VK_DRIVER_FILES=broken/driver.json VK_ICD_FILENAMES=broken/driver.json exits 1 "$gather" input.exr "${lens[@]}" -o x.exr --device gpu -v
-grep -Eq '^dof-gather: no device by Vulkan: .*(Driver|driver)' stderr || fail "a broken driver: $(cat stderr)"
+grep -Eq '^dof-gather: Vulkan finds no device: .*(Driver|driver)' stderr || fail "a broken driver: $(cat stderr)"
 without_loader 0 "$bin/ldi-warp" --device list
 [ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "ldi-warp --device list: $(cat stdout)"
 SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used' "$gather" input.exr "${lens[@]}" -o x.exr

@@ -217,7 +217,7 @@ oiiotool $one --crop 160x45+0+0 $two --over -o copy.exr
 fails_saying 1 'copy.exr: has the same noise as fence/rays_1.exr' "$finish" gathered.exr $one copy.exr -o x.exr
 
 # Failures: one line that says what to do; the old output stays.
-fails_saying 2 'one render alone cannot tell.*another seed' "$finish" gathered.exr $one -o x.exr
+fails_saying 2 'noise of a single render is unknown.*another seed' "$finish" gathered.exr $one -o x.exr
 picture edit $two small.exr crop=80x90+0+0
 exits 0 "$finish" gathered.exr $one small.exr -o cropped.exr
 exits 0 "$bin/dof-trace" fence --size 80x45 --views 0 --halves 4 -o other

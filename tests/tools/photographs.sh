@@ -76,7 +76,7 @@ wrong 1 'none.png: cannot read' --depth-file none.png --blur 6 "${sharp[@]}"
 wrong 2 'photo.jpg: is a picture without depth: give its depth by --depth-file' --blur 6 "${sharp[@]}"
 wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png "${sharp[@]}"
 wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png --fstop 2 "${sharp[@]}"
-wrong 2 'what is sharp is unknown: .*--focus-pixel' --depth-file depth8.png --blur 6
+wrong 2 'the focus is unknown: .*--focus-pixel' --depth-file depth8.png --blur 6
 for lens in --fstop --lens-radius --focal-length --sensor-width; do
     wrong 2 "--blur excludes $lens|$lens excludes --blur" --depth-file depth8.png --blur 6 "$lens" 2 "${sharp[@]}"
 done

@@ -55,11 +55,12 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
         ->group("Frames");
     app.add_flag("--skip-existing", options.skip_existing, "Skip frames whose outputs exist")
         ->group("Frames");
-    app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
+    app.add_option("--stats", options.stats,
+                   "File to which statistics are appended, one line of JSON per frame; - for stderr")
         ->type_name("FILE");
     app.add_option("--progress", options.progress,
-                   "Print progress lines for a render farm on stderr; openjd: status and failures too "
-                   "(default: none)")
+                   "Print progress on stderr. plain: text; alf: for Tractor; openjd: for Open Job "
+                   "Description, with status and failures (default: none)")
         ->type_name("plain|alf|openjd")
         ->transform(words(progress_formats()))
         ->group("Frames");

@@ -60,7 +60,7 @@ std::string command_line(const std::string &tool, const std::vector<std::string>
 
 void add_history_option(CLI::App &app, HistoryOptions &options) {
     app.add_flag("--no-history", options.none,
-                 "Do not record the command line in the metadata, in Exif:ImageHistory and Software")
+                 "Do not record the command line in the metadata (Exif:ImageHistory, Software)")
         ->envname("SPARSELENS_NO_HISTORY");
 }
 

@@ -110,15 +110,15 @@ void parse_all(CLI::App &app, std::vector<std::string> words) {
 
 void add_process_options(CLI::App &app, ProcessOptions &options) {
     app.set_version_flag("--version", app.get_name() + " (sparselens) " SPARSELENS_VERSION);
-    app.add_flag("-v,--verbose", options.verbose, "Report on stderr what was found and done");
+    app.add_flag("-v,--verbose", options.verbose, "Print on stderr what the tool found and did");
     app.add_option("--threads", options.threads,
                    "Number of threads; 0: all that the process may use (default: 0)")
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
     app.add_option("--max-memory", options.max_memory,
-                   "Memory limit for reading a file and for frames in work, e.g. 4GB (default: 64 MB plus "
-                   "1100 times the size of the file; a quarter of the machine's)")
+                   "Limit of memory, e.g. 4GB, for reading a file (default: 64 MB plus 1100 times its size) "
+                   "and for the frames in work (default: a quarter of the machine's)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
 }

@@ -42,14 +42,14 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
     app.add_option("--denoised", options.denoised, "Denoised version of each render, in the same order")
         ->type_name("FILE...");
     app.add_option("--gathered", options.others,
-                   "Another gathered picture of the same lens, for example of denoised views, to choose from")
+                   "Another gathered picture of the same lens, for example of denoised views; used where the "
+                   "renders confirm it")
         ->type_name("FILE")
         ->take_all()
         ->allow_extra_args(false);
     app.add_option("--neighbours", options.neighbours,
                    "Also use the renders of N frames before and N after, where the error of the gathered "
-                   "picture stays "
-                   "the same; frames without files are left out (default: 0)")
+                   "picture stays the same; missing frames are left out (default: 0)")
         ->type_name("N")
         ->check(CLI::Range(0, 16));
 }
@@ -64,25 +64,24 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
         ->required();
     const std::map<std::string, ShowFinished> shows{{"error", ShowFinished::error},
                                                     {"trust", ShowFinished::trust}};
-    app.add_option(
-           "--show", options.show,
-           "Write a map instead of the picture. error: the estimated error of each pixel as a display "
-           "shows it, rms; trust: 1 where the picture stays as gathered, 0 where the rays decide")
+    app.add_option("--show", options.show,
+                   "Write a map instead of the picture. error: the estimated error of each pixel as a "
+                   "display shows it, root mean square; trust: 1 where the picture stays as gathered, 0 "
+                   "where the renders replace it")
         ->type_name("error|trust")
         ->transform(words(shows));
-    app.add_option("--goal", options.goal, "Also say how many rays a picture of this many dB takes")
+    app.add_option("--goal", options.goal, "Also print how many rays a picture of this quality takes, in dB")
         ->type_name("DB")
         ->check(number(above_0));
     CLI::Option *ask =
         app.add_option(
                "--ask", options.ask,
-               "Also write how many more samples each pixel needs, and print a few rectangles that need "
-               "about as many rays: X,Y,WIDTH,HEIGHT SAMPLES, the samples of two renders together")
+               "Also write how many more samples each pixel needs, and print a few rectangles to render with "
+               "about as many: X,Y,WIDTH,HEIGHT SAMPLES, the samples of two renders together")
             ->type_name("MASK.exr");
     app.add_option(
            "--rays", options.rays,
-           "For --ask: rays per pixel on average, those of the renders included (default: as many as --goal "
-           "takes)")
+           "Mean rays per pixel for --ask, including those of the renders (default: as many as --goal takes)")
         ->type_name("N")
         ->needs(ask)
         ->check(number(above_0));
@@ -91,15 +90,16 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
     add_compression_option(app, options.compression, false);
     add_history_option(app, options.history);
     add_examples(
-        app, {{"Make a gathered picture exact by two renders through the lens",
+        app, {{"Correct a gathered picture by two renders through the lens",
                "dof-finish picture.exr rays_1.exr rays_2.exr -o final.exr"},
               {"Finish a sequence with the renders of two frames before and after each frame",
                "dof-finish picture.####.exr rays_1.####.exr rays_2.####.exr -o final.####.exr --frames 1-3 "
                "--neighbours 2"},
-              {"Say where more rays are worth most, for 80 rays per pixel on average",
+              {"Find where more rays help most, for 80 rays per pixel on average",
                "dof-finish picture.exr rays_1.exr rays_2.exr -o draft.exr --ask mask.exr --rays 80"},
-              {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
-                                             "--show trust"}});
+              {"See where the renders replaced the picture",
+               "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
+               "--show trust"}});
     app.final_callback([&options] { check(options); });
 }
 

@@ -29,16 +29,15 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
 }
 
 void add_gather_examples(CLI::App &app) {
-    add_examples(
-        app,
-        {{"Make the picture through the lens that the file describes", "dof-gather ldi.exr -o picture.exr"},
-         {"Focus on what pixel 100,60 shows, stop down, and write a PNG",
-          "dof-gather ldi.exr -o picture.png --focus-pixel 100,60 --fstop 2"},
-         {"Pull the focus over 12 frames",
-          "dof-gather ldi.exr -o pull.####.exr --frames 1-12 --focus-distance 1:2.0,12:5.0"},
-         {"Defocus one flat render that does not describe its lens",
-          "dof-gather beauty.exr -o picture.exr --focal-length 35 --sensor-width 36 --fstop 0.5 "
-          "--focus-distance 5"}});
+    add_examples(app,
+                 {{"Make the picture with the lens of the file", "dof-gather ldi.exr -o picture.exr"},
+                  {"Focus on the surface in pixel 100,60, stop down, and write a PNG",
+                   "dof-gather ldi.exr -o picture.png --focus-pixel 100,60 --fstop 2"},
+                  {"Pull the focus over 12 frames",
+                   "dof-gather ldi.exr -o pull.####.exr --frames 1-12 --focus-distance 1:2.0,12:5.0"},
+                  {"Defocus one flat render without a lens in its file",
+                   "dof-gather beauty.exr -o picture.exr --focal-length 35 --sensor-width 36 --fstop 0.5 "
+                   "--focus-distance 5"}});
 }
 
 } // namespace

@@ -36,9 +36,8 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
         ->type_name("")
         ->required();
     app.add_option("PLATE", options.plate,
-                   "The filmed plate (EXR, or PNG, JPEG, DPX and others, which the file rules of OpenColorIO "
-                   "decode), of "
-                   "the same size; colours are not compared")
+                   "Filmed plate of the same size (EXR, PNG, JPEG, DPX and others; the file rules of "
+                   "OpenColorIO give the colour space); colours are not compared")
         ->type_name("")
         ->required();
     app.add_option("-o,--output", options.output,
@@ -55,7 +54,8 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
                    "on disk)")
         ->type_name("RANGE")
         ->group("Frames");
-    app.add_option("--stats", options.stats, "Append statistics as one line of JSON per frame; - for stderr")
+    app.add_option("--stats", options.stats,
+                   "File to which statistics are appended, one line of JSON per frame; - for stderr")
         ->type_name("FILE");
 }
 
@@ -73,12 +73,12 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
                        "--region",
                        fmt::format("must be X,Y,WIDTH,HEIGHT (e.g. 100,50,640,360), not '{}'", text));
            },
-           "Compare only these pixels: the upper left one, y down, and the size (default: all)")
+           "Pixels to compare: the upper left one, y down, and the size (default: all)")
         ->type_name("X,Y,W,H");
     const std::map<std::string, MatchFit> fits{
         {"both", MatchFit::both}, {"focus", MatchFit::focus}, {"fstop", MatchFit::fstop}};
     app.add_option("--fit", options.match.fit,
-                   "What to find; the other value is that of the file or of an option (default: both)")
+                   "Values to find; the other one comes from the file or an option (default: both)")
         ->type_name("both|focus|fstop")
         ->transform(words(fits));
     app.add_flag("--shape", options.shape,

@@ -22,15 +22,15 @@ Imath::V2d view_offset(const std::string &text) {
 
 void add_recolor_option(CLI::App &app, std::string &path) {
     app.add_option("--recolor", path,
-                   "Flat picture of the same frame (EXR). Its colours and light passes replace those of the "
-                   "samples, which flatten to that picture")
+                   "Flat picture of the same frame (EXR), whose colours and light passes replace those of "
+                   "the samples")
         ->type_name("BEAUTY.exr");
 }
 
 void add_tiles_option(CLI::App &app, int &tiles) {
     app.add_option("--tiles", tiles,
-                   "Write EXR in tiles of N x N pixels, which viewers and Nuke read faster in part; 0: in "
-                   "scanlines (default: 0)")
+                   "Size of the tiles of EXR output, in pixels; viewers and Nuke read parts of tiled files "
+                   "faster. 0: scanlines (default: 0)")
         ->type_name("N")
         ->check(CLI::Range(0, 8192));
 }
@@ -64,7 +64,7 @@ void add_compression_option(CLI::App &app, AskedCompression &compression, bool d
     app.add_option_function<std::string>(
            "--compression", read,
            deep ? "Compression of the LDI (default: that of a deep input, else zips; none into a pipe)"
-                : "Compression of EXR (default: that of a flat input, else zip; none into a pipe)")
+                : "Compression of EXR output (default: that of a flat input, else zip; none into a pipe)")
         ->type_name(compression_names(deep, "|"));
 }
 
@@ -84,8 +84,8 @@ void add_device_option(CLI::App &app, std::string &device, const std::string &wh
     app.add_option(
            "--device", device,
            what_works +
-               ". cpu: the CPU; auto: a GPU if there is one; gpu: a GPU, else an error; a part of a name: "
-               "the device of that name, even one in software; list: print the devices (default: cpu)")
+               ". cpu: the CPU; auto: a GPU if there is one; gpu: a GPU, else an error; a part of a device's "
+               "name: this device, even one in software; list: print all devices (default: cpu)")
         ->type_name("cpu|auto|gpu|list")
         ->group("Device")
         ->envname("SPARSELENS_DEVICE")
@@ -129,7 +129,7 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
 
 void add_depth_files_option(CLI::App &app, std::vector<std::string> &files) {
     app.add_option("--depth-file", files,
-                   "File with the depth of a picture; give one for each picture, in their order")
+                   "Flat EXR with the depth of a picture, one for each picture, in the same order")
         ->type_name("FILE.exr")
         ->allow_extra_args(false)
         ->group("Lens");

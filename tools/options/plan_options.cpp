@@ -40,51 +40,49 @@ Imath::V2i size_of(const std::string &text) {
 } // namespace
 
 void add_plan_options(CLI::App &app, PlanCommand &options) {
-    app.add_option(
-           "CENTER", options.centre,
-           "Centre view, with colour and depth (EXR); with %s in its name, those of a shutter's moments, "
-           "which "
-           "also tell how many moments it needs; without it, --camera and --cameras write cameras alone")
+    app.add_option("CENTER", options.centre,
+                   "Centre view with colour and depth (EXR). %s in its name: the centre views of a shutter's "
+                   "moments, from which the number of moments is computed. Without CENTER, --camera and "
+                   "--cameras write only cameras")
         ->type_name("");
     app.add_option("-o,--output", options.output, "Plan to write; - for standard output")
         ->type_name("PLAN.json");
     app.add_option("--masks", options.masks,
-                   "Folder for one mask per view, whose A is 1 in the pixels to render")
+                   "Folder for one mask per view; its A is 1 in the pixels to render")
         ->type_name("DIR");
-    app.add_option(
-           "--cameras", options.cameras,
-           "File for the cameras of the views: offsets, matrices, screen window, for any renderer; as USD "
-           "(.usd, .usda, .usdc), one file for all frames of a range, with cameras and render products")
+    app.add_option("--cameras", options.cameras,
+                   "File to write with the cameras of the views: offsets, matrices, screen windows; as USD "
+                   "(.usd, .usda, .usdc), cameras and render products of all frames in one file")
         ->type_name("FILE.json|FILE.csv|FILE.usd")
         ->check(camera_file());
     app.add_option_function<std::string>(
            "--up-axis", [&options](const std::string &axis) { options.up_axis = axis[0]; },
-           "Axis of the world that points up, as --cameras FILE.usd states it (default: as in --camera, "
-           "else Y)")
+           "Axis of the world that points up in --cameras FILE.usd (default: as in --camera, else Y)")
         ->type_name("Y|Z")
         ->check(CLI::IsMember({"Y", "Z"}));
     app.add_option_function<std::string>(
            "--size", [&options](const std::string &text) { options.size = size_of(text); },
-           "Size of the picture, without CENTER (default: the resolution of the layer's render settings)")
+           "Size of the picture in pixels, without CENTER (default: the resolution of the stage's render "
+           "settings)")
         ->type_name("WIDTHxHEIGHT");
     app.add_option(
            "--views", options.plan.views,
            fmt::format("Largest number of views from the rim of the lens (default: {})", options.plan.views))
         ->type_name("N")
         ->check(CLI::Range(0, 64));
-    app.add_option("--margin", options.plan.margin,
-                   fmt::format("Pixels added around what the centre view does not see (default: {})",
-                               options.plan.margin))
+    app.add_option(
+           "--margin", options.plan.margin,
+           fmt::format("Margin around the pixels that the centre view does not see, in pixels (default: {})",
+                       options.plan.margin))
         ->type_name("PX")
         ->check(CLI::Range(0, 1024));
     app.add_option("--noise", options.plan.noise,
                    "Standard deviation of the noise of a tone-mapped pixel (default: measured)")
         ->type_name("SIGMA")
         ->check(number(at_least_0));
-    app.add_option(
-           "--rays", options.rays,
-           "Rays per pixel of the picture in all; say how to divide them between views and two renders "
-           "through the lens, for dof-finish")
+    app.add_option("--rays", options.rays,
+                   "Total rays per pixel of the picture; prints how to divide them between views and two "
+                   "renders through the lens (dof-finish)")
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20));
     add_parameters(app, lens_parameters(), options.lens);

@@ -28,40 +28,38 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->required()
         ->check(output_name(OutputKind::exr));
     app.add_option("--denoised", options.denoised,
-                   "What a denoiser made of each view, in the order of the views. Its colours are taken but "
-                   "for details that "
-                   "all views show: lamps, glints, strands, texture")
+                   "Denoised version of each view, in the same order. Its colours replace the view's, except "
+                   "for details that all views show: lamps, glints, strands, texture")
         ->type_name("CENTER.exr [VIEW.exr ...]");
     app.add_option("--noisy", options.noisy,
-                   "The same for views that are denoised and hold what they were before in this layer "
-                   "(Cycles: Noisy Image)")
+                   "Layer with the noisy colours, if the views are denoised (Cycles: Noisy Image)")
         ->type_name("LAYER")
         ->excludes("--denoised");
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.warp.merge,
-                   "How to merge views. average: average the views of a surface; keep: keep one sample per "
-                   "surface and leave the centre view unchanged (default: average)")
+                   "How to merge views. average: average the samples of a surface; keep: keep one sample of "
+                   "each surface, and the centre view unchanged (default: average)")
         ->type_name("average|keep")
         ->transform(words(merges));
     const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
     app.add_option("--silhouettes", options.warp.split_silhouettes,
-                   "With --merge average, pixels that mix two surfaces. split: make them two samples; whole: "
-                   "leave them one (default: split)")
+                   "Pixels that mix two surfaces, with --merge average. split: divide them into two samples; "
+                   "whole: keep them (default: split)")
         ->type_name("split|whole")
         ->transform(words(silhouettes));
     const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
     app.add_option("--agreement", options.warp.test_photo_consistency,
-                   "With --merge average, views that disagree (mirrors, glass). test: average only views "
-                   "that agree within noise or near focus; assume: average all (default: test)")
+                   "Views that differ, as on mirrors and glass, with --merge average. test: average only "
+                   "views that agree within noise or near focus; assume: average all (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
     const std::map<std::string, bool> optical{{"on", true}, {"off", false}};
     app.add_option("--optical", options.warp.find_images,
-                   "With --agreement test, images in mirrors and glass. on: estimate their depth and blur "
+                   "Images in mirrors and glass, with --agreement test. on: estimate their depth, and blur "
                    "them by it; off: blur them by the depth of the surface (default: on)")
         ->type_name("on|off")
         ->transform(words(optical));
-    add_device_option(app, options.device, "Device that warps");
+    add_device_option(app, options.device, "Device for the warp");
     add_compression_option(app, options.compression, true);
     add_parameters(app, lens_parameters(), options.lens);
     add_camera_options(app, options.camera);
@@ -78,7 +76,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
               {"Warp views of cameras that ldi-plan wrote as USD",
                "ldi-warp --camera views.usda center.exr view_*.exr -o ldi.exr"},
-              {"Warp views of few samples, with what a denoiser made of them",
+              {"Warp noisy views, with their denoised versions",
                "ldi-warp center.exr view_*.exr --denoised smooth.center.exr smooth.view_*.exr -o ldi.exr"},
               {"Warp, cluster and gather in a pipe",
                "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
@@ -86,11 +84,10 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
 
 void add_camera_options(CLI::App &app, CameraRequest &camera) {
     CLI::Option *file =
-        app.add_option(
-               "--camera", camera.file,
-               "Stage of USD whose cameras give position, frustum, focus and f-stop, instead of the files "
-               "of the views; each view has the camera of its name (view_0.exr: view_0). It is read by "
-               "python3 with usd-core, or the Python that SPARSELENS_USD_PYTHON names; or cameras as JSON")
+        app.add_option("--camera", camera.file,
+                       "USD stage or JSON with position, frustum, focus and f-stop of the cameras, instead "
+                       "of the metadata of the views; a view takes the camera of its name (view_0.exr: "
+                       "view_0). USD needs usd-core in python3, or in the Python of $SPARSELENS_USD_PYTHON")
             ->type_name("SHOT.usd|SHOT.json")
             ->group("Lens");
     app.add_option("--camera-name", camera.name,
@@ -99,7 +96,7 @@ void add_camera_options(CLI::App &app, CameraRequest &camera) {
         ->needs(file)
         ->group("Lens");
     app.add_option("--camera-frame", camera.frame,
-                   "Time code at which the camera is read (default: the number of the frame)")
+                   "Time code at which to read the camera (default: the number of the frame)")
         ->type_name("N")
         ->needs(file)
         ->group("Lens");

@@ -137,7 +137,7 @@ PipeRequest parse_pipe_request(std::string_view text) {
     };
     const Json json = Json::parse(text, not_too_deep, false);
     if (!json.is_object()) refuse("it is not an object of JSON");
-    if (!json.contains("ask")) refuse("it says not what to ask");
+    if (!json.contains("ask")) refuse("it has no ask");
     PipeRequest request;
     for (const auto &[name, value] : json.items()) take(request, name, value);
     if (request.source.file.empty() && !request.handed) refuse("it names no file");

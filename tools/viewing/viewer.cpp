@@ -83,7 +83,7 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
     if (!options.reference.empty()) reference_.with(options.reference, is_there);
     if (!options.plate.empty()) plate_.with(options.plate, is_there);
     if (!options.save.empty() && !std::filesystem::is_directory(options.save))
-        throw Error(options.save + ": is not a folder, where --save could write");
+        throw Error(options.save + ": is not a folder (--save)");
 }
 
 std::size_t Viewer::frame_of(const Asked &asked) const {

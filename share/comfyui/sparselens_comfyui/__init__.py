@@ -57,10 +57,10 @@ class DepthOfField:
             "depth": ("IMAGE",),
             "blur": ("FLOAT", {"default": 20.0, "min": 0.0, "max": 500.0, "step": 0.5,
                                "tooltip": "radius in pixels of the disc of white if black is in focus"}),
-            "focus_x": ("FLOAT", {"default": 0.5, "tooltip": "what is sharp: share of the width", **share}),
+            "focus_x": ("FLOAT", {"default": 0.5, "tooltip": "place in focus: share of the width", **share}),
             "focus_y": ("FLOAT", {"default": 0.5, "tooltip": "share of the height, from the top", **share}),
             "highlight_gain": ("FLOAT", {"default": 1.0, "min": 1.0, "max": 100.0, "step": 0.5,
-                                         "tooltip": "makes clipped lights so much brighter"}),
+                                         "tooltip": "factor by which clipped lights become brighter"}),
         }}
 
     def take(self, image, depth, blur, focus_x, focus_y, highlight_gain):

@@ -36,7 +36,7 @@ TEST(TextFile, MayComeThroughAPipe) {
     }
     std::signal(SIGPIPE, before);
     EXPECT_EQ(what_of<Error>([] { read_text_file("/dev/zero"); }),
-              "/dev/zero: has more than 64 MB of text, which is not what is read here");
+              "/dev/zero: has more than 64 MB of text: it is not the file that is needed here");
 }
 
 // A sparse file, which is made at once but would take all memory to read.
@@ -49,7 +49,7 @@ TEST(TextFile, MayNotBeOfAnySize) {
     EXPECT_EQ(read_text_file(path).size(), most);
     std::filesystem::resize_file(path, most + 1);
     EXPECT_EQ(what_of<Error>([&] { read_text_file(path); }),
-              path + ": has more than 64 MB of text, which is not what is read here");
+              path + ": has more than 64 MB of text: it is not the file that is needed here");
 }
 
 TEST(TextFile, ErrorsNameTheFile) {

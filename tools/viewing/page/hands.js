@@ -53,7 +53,7 @@ async function focusAt(pixel, wantsObject = false) {
     const { samples } = await (await ask('samples', { settings: state.settings, pixel })).json();
     if (samples.length === 0) return say('there is nothing to focus on in pixel ' + pixel.join(','));
     set('focus-distance', samples[0].z);
-    if (wantsObject) say('focused, but not stopped down: ' + (state.facts.objects ? 'no Cryptomatte names the object there' : 'the file has no Cryptomattes to say what is one object'), true);
+    if (wantsObject) say('focused, but not stopped down: ' + (state.facts.objects ? 'no Cryptomatte names the object there' : 'the file has no Cryptomattes, which name the objects'), true);
 }
 
 const moveFocus = (steps) => set('focus-distance', asText(Math.min(focusNow(), 1e6) * 1.01 ** steps, 5));

@@ -37,6 +37,6 @@ function restoreFromAddress() {
     try {
         if (location.hash) restore(decodeURIComponent(location.hash.slice(1)));
     } catch {
-        say('what the address says was set cannot be read');
+        say('the settings in the address cannot be read');
     }
 }
