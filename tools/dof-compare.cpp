@@ -154,8 +154,8 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
     words.insert(words.end(), {"--frames", options.frames});
     const FrameCommands frames(words);
     if (frames.size() < 3)
-        throw UsageError(fmt::format(
-            "--frames {}: give three frames or more, to measure how steady they are", options.frames));
+        throw UsageError(fmt::format("--frames {}: give three frames or more, to measure how steady they are",
+                                     options.frames));
     TemporalError error;
     std::optional<Windows> windows;    // of the first frame
     std::optional<Imath::M44f> camera; // of the last one that tells it
@@ -177,8 +177,8 @@ void compare_sequences(const Options &options, const ToolContext &tool) {
         error.add(read(names[0]), reference ? &*reference : nullptr);
     }
     if (moves && options.reference.empty())
-        warn(tool, options.image +
-                       ": the camera moves, so most pixels change, and the figures do not show how steady the pictures are: give REF, and compare with its figures");
+        warn(tool, options.image + ": the camera moves, so most pixels change, and the figures do not show "
+                                   "how steady the pictures are: give REF, and compare with its figures");
     print(options.json ? temporal_as_json(error.figures()) : temporal_as_table(error.figures()));
 }
 

@@ -159,8 +159,8 @@ void ask(const FinishCommand &options, const FinishedPicture &finished, const Im
 
 void run(const FinishCommand &options, const ToolContext &tool) {
     if (options.renders.size() < 2)
-        throw UsageError(
-            "the noise of a single render is unknown: render the same picture again with another seed, and give both");
+        throw UsageError("the noise of a single render is unknown: render the same picture again with "
+                         "another seed, and give both");
     FlatFile file = read(options.gathered, options, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;

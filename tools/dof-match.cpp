@@ -78,7 +78,8 @@ std::optional<MatchedShape> find_shape(Shot &shot, const std::vector<FrameFiles>
         if (const auto shape = match_shape(in, shot.plate(frame), frame.plate, request, *tool.progress))
             return shape;
     }
-    warn(tool, "the plates do not show the shape of the lens: it needs lamps or edges that are out of focus by 6 pixels and more");
+    warn(tool, "the plates do not show the shape of the lens: it needs lamps or edges that are out of focus "
+               "by 6 pixels and more");
     return {};
 }
 

@@ -38,23 +38,27 @@ constexpr std::array table{
     Words{NoticeKind::camera, note, "{file}: {0}"},
     Words{NoticeKind::camera_unsure, note, "{file}: {0}; `{parameter}` settles it"},
     Words{NoticeKind::colour_space, note, "{file}: colour space {0}"},
-    Words{
-        NoticeKind::unnamed_chromaticities, warning,
-        "{file}: the colour configuration has no space with its chromaticities, so its colours are taken for scene-linear; if they are not, give `{parameter}`"},
+    Words{NoticeKind::unnamed_chromaticities, warning,
+          "{file}: the colour configuration has no space with its chromaticities, so its colours are taken "
+          "for scene-linear; if they are not, give `{parameter}`"},
     Words{NoticeKind::unnamed_space, warning,
-          "{file}: the colour configuration has no space for its {0}, so its colours are taken for scene-linear; if they are not, give `{parameter}`"},
+          "{file}: the colour configuration has no space for its {0}, so its colours are taken for "
+          "scene-linear; if they are not, give `{parameter}`"},
     Words{NoticeKind::no_colorconfig, warning,
           "{0}; EXR is taken as linear: correct $OCIO, or name a configuration by `{parameter}`"},
     Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
     Words{NoticeKind::converted, warning,
           "{file}: its colours are in another space than those of {0}, and are converted"},
     Words{NoticeKind::changed_data, warning,
-          "{file}: its compression is for colours, and changes the data of channel {0}: give `{parameter}=zip`"},
+          "{file}: its compression is for colours, and changes the data of channel {0}: give "
+          "`{parameter}=zip`"},
     Words{NoticeKind::picture_warning, warning, "{0}"},
     Words{NoticeKind::coverage_differs, warning,
-          "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same objects and pixel filter. Coverage that it alone has lies at infinity"},
+          "{file}: its coverage differs from that of {0} in {1} of {2} pixels; render both with the same "
+          "objects and pixel filter. Coverage that it alone has lies at infinity"},
     Words{NoticeKind::without_colours, warning,
-          "{file}: has no colours for {1} pixels of {0}, which are left out: render as much overscan as {0} has"},
+          "{file}: has no colours for {1} pixels of {0}, which are left out: render as much overscan as {0} "
+          "has"},
     Words{NoticeKind::light_at_infinity, note,
           "{file}: {0} pixels have light or coverage without a sample; it lies at infinity"},
     Words{NoticeKind::regions, note,
@@ -68,7 +72,8 @@ constexpr std::array table{
           "{0} samples to {1}, by inverse depth alone, because the lens is unknown"},
     Words{NoticeKind::focused, note, "the focus distance is {0:g}, the depth of pixel {1:g},{2:g}"},
     Words{NoticeKind::wide_lens, warning,
-          "the aperture is larger than the one that the views were rendered for; parts of the picture are unknown"},
+          "the aperture is larger than the one that the views were rendered for; parts of the picture are "
+          "unknown"},
     Words{NoticeKind::round_aperture, warning, "method {0} ignores the aperture's shape, and takes a disc"},
     Words{NoticeKind::overscan, note,
           "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there"},

@@ -206,8 +206,7 @@ ShotFrame pack(OpenedLdi in) {
 }
 
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour) {
-    if (!all_found(find_rgb(in.ldi.channels)))
-        throw Error(in.name + ": has no channels R, G and B to show");
+    if (!all_found(find_rgb(in.ldi.channels))) throw Error(in.name + ": has no channels R, G and B to show");
     const DepthExtent depths = depth_extent(in.ldi);
     ShotFrame frame = pack(std::move(in));
     frame.across = subpixels_of(windows, frame.in).across;

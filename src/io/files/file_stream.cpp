@@ -322,7 +322,8 @@ constexpr std::size_t most_text = std::size_t(64) << 20;
 
 void check_size(const std::string &path, std::uint64_t bytes, Content content) {
     if (content == Content::text && bytes > most_text)
-        throw Error(display_name(path) + ": has more than 64 MB of text: it is not the file that is needed here");
+        throw Error(display_name(path) +
+                    ": has more than 64 MB of text: it is not the file that is needed here");
 }
 
 void check_stream(const std::string &path, const std::vector<char> &bytes, std::size_t used,
