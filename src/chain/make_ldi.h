@@ -63,8 +63,7 @@ struct WarpWork {
     WarpingDevice *device = nullptr; // finds the device of the request; null: the CPU works
 };
 
-// Makes the LDI from the files of the request, or from views in memory, whose pixels are copied. Throws Error and
-// UsageError.
+// Makes the LDI from the files of the request, or from views in memory, whose pixels are copied.
 MadeLdi make_ldi(const LdiFromViews &request, const WarpWork &work);
 MadeLdi make_ldi(std::span<const ViewInMemory> views, const LdiFromViews &request, const WarpWork &work);
 

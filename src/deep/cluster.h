@@ -24,7 +24,6 @@ struct Clustered {
     double largest_error = 0; // bound on the change of any sample's CoC, pixels (at `scale`)
 };
 
-// The input must be tidy.
 Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress);
 
 } // namespace sparselens

@@ -25,13 +25,13 @@
 namespace sparselens {
 
 struct Recolored {
-    Ldi ldi;                  // tidy
+    Ldi ldi;
     std::size_t differ = 0;   // pixels whose coverage does not agree (base/light.h)
     std::size_t beyond = 0;   // pixels with samples outside the flat picture, which are left out
     std::size_t infinite = 0; // pixels that got a sample at infinity
 };
 
-// `ldi` must be tidy, the values of both valid (sanitize.h), and the display windows the same.
+// The values of both must be valid (sanitize.h), and the display windows the same.
 Recolored recolor(Ldi ldi, const Image &flat);
 
 // Whether recolor() takes the channel from the flat picture: every channel of light except coverage.

@@ -13,7 +13,7 @@ struct PictureOptions {
     const GatherMethod *method = &gather_methods().front();
     // gather_picture() sets its region and its holdout, and `beyond` if that is not given.
     GatherOptions gather = {};
-    // Tidy, with the same display window. What it hides is not shown, and it is not shown itself.
+    // With the same display window. What it hides is not shown, and it is not shown itself.
     const Ldi *holdout = nullptr;
     // The holdout is out of focus like the scene; else it stays sharp, which only the method lens supports.
     bool holdout_defocused = false;
@@ -23,7 +23,7 @@ struct PictureOptions {
 };
 
 // Gathers the pixels `gathered` and returns the pixels `written`, which lie within them. A lens of radius 0 gives the
-// flattened LDI, unless its looks magnify the picture. The LDI must be tidy.
+// flattened LDI, unless its looks magnify the picture.
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
 
@@ -50,7 +50,7 @@ Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options)
 // They are merged into the LDI without colour. Extra channels carry their coverage, so that it can be subtracted again
 // after the gather, by any method.
 
-// Returns the LDI to gather, which is tidy. Both LDIs must be tidy.
+// Returns the LDI to gather.
 Ldi with_holdout(const Ldi &ldi, const Ldi &holdout);
 
 // Removes the coverage of the holdout, and the extra channels, from a picture gathered from that LDI.

@@ -17,9 +17,8 @@ inline constexpr double layer_tolerance_px = 0.25;
 // coverage differs by channel.
 bool can_merge_layers(const Ldi &ldi);
 
-// `scale` is R F, pixels times scene units. Volumes get one depth first (below). The result has no
-// weights, because the lens gather ignores them. Ids are those of the front samples. An LDI that cannot be merged is
-// returned unchanged. The LDI must be tidy.
+// `scale` is R F, pixels times scene units. Volumes get one depth first (below). The result has no weights, because the
+// lens gather ignores them. Ids are those of the front samples. An LDI that cannot be merged is returned unchanged.
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance);
 
 // The same with less memory: the samples of `ldi` are freed as those of the result are made.
@@ -35,8 +34,7 @@ Ldi merge_layers(Ldi &&ldi, double scale, double tolerance);
 double shown_depth(double alpha);
 
 // Moves each volume, and its image in a mirror, to its mean depth, and says by an endless extent that it is a volume
-// which has its depth: volumes that never end stay where they are. The LDI must be tidy: its volumes do not overlap, so
-// samples keep their order.
+// which has its depth: volumes that never end stay where they are. Volumes do not overlap, so samples keep their order.
 Ldi at_shown_depths(Ldi ldi);
 
 } // namespace sparselens

@@ -37,7 +37,7 @@ struct GatherMethod {
     Gather light;     // all channels but Cryptomattes
 
     // Gathers the pixels of a window (EXR coordinates) within the data window of the LDI: all its channels, each by its
-    // own coverage (deep/channel_alpha.h). The LDI must be tidy and the lens radius above 0.
+    // own coverage (deep/channel_alpha.h). The lens radius must be above 0.
     Image gather(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
                  Progress &) const;
 };

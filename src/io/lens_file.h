@@ -21,11 +21,10 @@ struct LensFile {
     LookValues values;
 };
 
-// Throws Error, naming the file and the key, if the file cannot be read or understood. Throws UsageError if a value
-// depends on the f-number and this is unknown.
+// Throws UsageError if a value depends on the f-number and this is unknown.
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop);
 
-// The file of the aperture that a lens file names; empty if it names none. Throws Error if it cannot be read.
+// The file of the aperture that a lens file names; empty if it names none.
 std::string aperture_named_in(const std::string &lens_file);
 
 // The lens files of share/lenses, where the program was installed or built, by their names ("petzval").

@@ -39,8 +39,8 @@ struct OpenedLdi : OpenedFile {
 };
 
 // Opens any deep EXR, a flat one with depth, or a photograph with a depth file, which is a disparity unless it is an EXR
-// file (io/photograph.h); `-` is standard input. Throws Error if the file cannot be read, or most of its depths are
-// invalid (see sanitize()). Throws UsageError if its depth is the length of the ray and the focal length is unknown.
+// file (io/photograph.h); `-` is standard input. Throws Error if most of its depths are invalid (see sanitize()),
+// UsageError if its depth is the length of the ray and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
 // Replaces the samples of some rows, which are tidy, by fewer; windows and channels stay. Several threads call it at

@@ -82,8 +82,8 @@ struct OpenedView : OpenedFile {
 };
 
 // Opens a flat EXR with a depth channel; `-` is standard input. Ray lengths need the frustum; if the file lacks it, it
-// is taken from `otherwise`. Throws Error if the file cannot be read, or most of its depths are invalid (see
-// sanitize()). Throws UsageError if its depth is the length of the ray and the focal length is unknown.
+// is taken from `otherwise`. Throws Error if most depths are invalid (see sanitize()), UsageError if its depth is the
+// length of the ray and the focal length is unknown.
 OpenedView open_view(const std::string &path, const OpenOptions &options = {}, const Camera &otherwise = {});
 
 // The same for a picture that is already in memory; `path` is for messages.

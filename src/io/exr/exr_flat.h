@@ -1,7 +1,6 @@
 // Flat EXR files of any part layout and compression, scanline or tiled. In memory every channel is float.
 //
 // Metadata is carried in the header of OpenEXR, unchanged. `-` stands for standard input and output.
-// Throws Error, naming the file and the channel, if something cannot be opened, read or written.
 #pragma once
 
 #include "../../base/image.h"

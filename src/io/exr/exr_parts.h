@@ -84,12 +84,10 @@ struct PictureChoice {
     std::string depth_in_memory() const { return depth_file.empty() ? depth : "Z"; }
 };
 
-// The views of all parts, the default view first; empty if the file names none. Reads only the header. Throws Error if
-// the file cannot be read.
+// The views of all parts, the default view first; empty if the file names none. Reads only the header.
 std::vector<std::string> stereo_views(const std::string &path);
 
-// The layers of a view that are pictures; empty if there are none. Reads only the header. Throws Error like
-// stereo_views().
+// The layers of a view that are pictures; empty if there are none. Reads only the header.
 std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view = {});
 
 } // namespace sparselens

@@ -2,9 +2,8 @@
 //
 // Output is atomic: it is written to a temporary file beside the target (.NAME.PID-N.partial; a long NAME is cut off),
 // which commit() renames. Missing folders are made and symbolic links are followed. A replaced file keeps its mode, and
-// must be writable; the umask applies to a new one. Devices, pipes
-// and standard output (`-`) cannot be replaced by renaming: their bytes are held in memory and written by commit().
-// Throws Error, naming the file and the reason of the system.
+// must be writable; the umask applies to a new one. Devices, pipes and standard output (`-`) cannot be replaced by
+// renaming: their bytes are held in memory and written by commit(). An Error has the reason of the system.
 #pragma once
 
 #include <ImfIO.h>
