@@ -104,3 +104,9 @@ END {
     for (path in is_public) if (!(path in is_file)) fault("src/CMakeLists.txt names the header " path ", which is not there")
     exit faults > 0
 }'
+
+# The map shows these includes.
+python3 tests/scripts/folders.py | cmp - docs/folders.svg || {
+    echo "FAIL: docs/folders.svg is not the map of today's includes: tests/scripts/folders.py >docs/folders.svg" >&2
+    exit 1
+}
