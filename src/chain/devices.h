@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// The notices that report what a device has done, and what it has not.
+// The notices about a device: why it works or fails, what it has done, and what the CPU does.
 struct DeviceNotices {
     NoticeKind unusable, failed, done, left;
 };

@@ -27,8 +27,8 @@ public:
     // Takes the pixels of the view and packs them.
     ViewSamples(View &&view, std::span<const Channel> channels);
     // Takes a deep view; `samples` must be tidy and in the middle of their pixels. The weight of a part is the share of
-    // light that the parts before it let through, and at least that of an estimate (WarpTuning::estimate_weight),
-    // because so many of the renderer's samples saw it.
+    // light that the parts before it let through, because that share of the renderer's samples hit it, and at least
+    // that of an estimate (WarpTuning::estimate_weight).
     explicit ViewSamples(Ldi &&samples);
     ViewSamples(ViewSamples &&) = default;
     ViewSamples &operator=(ViewSamples &&) = default;

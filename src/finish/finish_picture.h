@@ -22,7 +22,7 @@ namespace sparselens {
 // Let F and G be the pictures made of the renders x and y. Then the mean of (F - y)(G - x) + (F - G)(x - y) is the
 // product of their errors without noise: the first product misses the noise that each picture took from its own render,
 // and the second product adds it. The noise that is left in the picture of both renders adds n m / (n + m)^2 (F - G)^2
-// for n and m samples. No term squares the noise of one render, so single bright rays do not decide.
+// for n and m samples. No term squares the noise of one render, so fireflies do not dominate.
 struct ErrorEstimate {
     Values map;                    // mean squared error around each pixel, tone-mapped (light.h), at least 0
     double mean = 0;               // of the picture; negative if it is too small to be measured

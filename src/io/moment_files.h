@@ -29,7 +29,7 @@ bool names_moments(const std::string &path);
 // The name with the number in the place of each %s.
 std::string at_moment(std::string path, const std::string &number);
 
-// The name without each %s and the dot, line or dash before it: that of the one picture of all moments.
+// The name of the picture of all moments: without each %s and the dot, line or dash before it.
 std::string without_moment(std::string path);
 
 // The numbers of the moments that exist, as the files spell them, ascending. Throws Error if there is none, or if one

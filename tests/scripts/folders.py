@@ -95,8 +95,8 @@ def svg():
     place = {box: (BOXES[box][0], height - ROW * level[box] - ROW // 2) for box in boxes}
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" font-family="sans-serif">',
            '<style>.box{fill:#f4f4f0;stroke:#666}.use{stroke:#aaa;fill:none}.flow{stroke:#c60;stroke-width:4}'
-           '.on{fill:#fff0dd;stroke:#c60}.name{font-weight:bold;font-size:13px}.note{font-size:11px}.label{font-size:11px;fill:#a40}'
-           'text{text-anchor:middle}</style>',
+           '.on{fill:#fff0dd;stroke:#c60}.name{font-weight:bold;font-size:13px}.note{font-size:11px}'
+           '.label{font-size:11px;fill:#a40}text{text-anchor:middle}</style>',
            '<defs><marker id="head" viewBox="0 0 6 6" refX="5" refY="3" markerWidth="3" markerHeight="3" orient="auto">'
            '<path d="M0 0 6 3 0 6z" fill="#c60"/></marker></defs>',
            f'<rect width="{WIDTH}" height="{height}" fill="#fff"/>']

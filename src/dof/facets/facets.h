@@ -6,9 +6,9 @@
 // other in a row or a column and have the same sign. D may be the first, the second or the third of them. S is the
 // smaller of the other two steps, for the choice with the largest S. Then
 //   |D| < steep_px + 2 S
-// links a slope to where it ends, and a curved slope to itself. A silhouette has no such steps: the surfaces in front
-// of it and behind it are flatter than the step between them, and a pixel of mixed depth divides that into two steps. A
-// sample has at most one link in each direction: to the sample nearest in depth.
+// links a slope to where it ends, and a curved slope to itself. A silhouette has no such steps: both surfaces are flat,
+// and only one step is steep, or two if a pixel has a depth between them. A sample has at most one link in each
+// direction: to the sample nearest in depth.
 //
 // A facet is a triangle between three samples of the four pixels that meet in a corner. One of its samples lies in the
 // upper left pixel, two of its sides are links, and some side is steep. Four samples that are linked all around form

@@ -31,7 +31,7 @@ std::vector<std::string> views_of(const Imf::Header &header);
 std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers);
 
 // The parts among `numbers` that belong to the view `asked`, or if that is empty, to the default view of the first part
-// (if that part names no view, all parts that name none). Throws Error, listing the views of the parts, if no view has
+// (if it has no view attribute, all parts without one). Throws Error, listing the views of the parts, if no view has
 // that name.
 struct PartsOfView {
     std::string view; // empty: the file names none
