@@ -37,9 +37,9 @@ def number_or_auto(text):
 
 def add_options(add, exclusive):
     add("-o", "--output", required=True, metavar="DIR",
-        help="folder of the views: center.exr, view_0.exr, ...; of pictures "
-             "their name, such as //out/####.exr. Without an ending they are "
-             "what the scene's output settings say")
+        help="folder of the views: center.exr, view_0.exr, ...; for pictures, "
+             "their name, such as //out/####.exr. Without an ending, they "
+             "have the format of the scene's output settings")
     add("--views", type=natural_number, default=4, metavar="N",
         help="views from the rim of the lens (default: 4)")
     frames = exclusive()
@@ -52,19 +52,19 @@ def add_options(add, exclusive):
              "view_0.####.exr, ... (default of pictures whose name has #: "
              "those of the scene)")
     add("--samples", type=natural_number, metavar="N",
-        help="samples a pixel of the picture (default: the scene's)")
+        help="samples per pixel of the picture (default: the scene's)")
     add("--supersample", type=number_or_auto, default=AUTO, metavar="N",
         help="render N times the width and height with 1/N^2 of the samples "
-             "a pixel; dof-gather makes the picture of the scene's size of "
-             "it; auto: 2 at frames where ldi-plan advises it, else 1 "
-             "(default: auto)")
+             "per pixel; dof-gather makes a picture of the scene's size; "
+             "auto: 2 at frames where ldi-plan advises it, else 1 (default: "
+             "auto)")
     add("--overscan", type=number_or_auto, default=AUTO, metavar="PX",
         help="pixels of the picture to render beyond each side; auto: as "
              "many as the blur at the border of each frame needs (default: "
              "auto)")
     add("--multilayer", action="store_true",
-        help="multilayer EXR with all passes of the view layers, AOVs and "
-             "Cryptomatte too (default: colour and depth)")
+        help="write multilayer EXR with all passes of the view layers, also "
+             "AOVs and Cryptomatte (default: colour and depth)")
     add("--layer", metavar="NAME",
         help="the only view layer to render (default: all that are switched "
              "on; without --multilayer there may be only one)")
@@ -85,15 +85,15 @@ def add_options(add, exclusive):
              "motion blur: center_0.exr, view_0_0.exr, ..., center_1.exr, "
              "... (default: 1, a still)")
     add("--finish", type=natural_number, default=0, metavar="N",
-        help="also render two pictures through the camera's lens, N samples "
-             "a pixel in all, which share no noise: rays_1.exr and "
-             "rays_2.exr (Cycles). Pictures are finished by them")
+        help="also render two pictures through the camera's lens that share "
+             "no noise, with N samples per pixel together: rays_1.exr and "
+             "rays_2.exr (Cycles). With pictures, finish these by them")
 
 
 def add_views_options(add):
     add("--plan", metavar="PLAN.json",
-        help="render only what this file of ldi-plan asks for, a file a "
-             "rectangle: view_0_0.exr, ...; plan.####.json for --frames")
+        help="render only the rectangles of this plan of ldi-plan, one file "
+             "each: view_0_0.exr, ...; plan.####.json for --frames")
     add("--lens-views", type=natural_number, default=0, metavar="N",
         help="also render N views spread over the lens, lens_0000.exr, ..., "
              "whose average (dof-accumulate) is the true picture")

@@ -24,8 +24,8 @@ SPARSELENS_Looks = type("SPARSELENS_Looks", (bpy.types.PropertyGroup,),
 
 class SPARSELENS_Settings(bpy.types.PropertyGroup):
     folder: bpy.props.StringProperty(
-        name="Folder", description="Where the views go, and what is made of "
-        "them; {blend_name} is the name of the file, so that a copy of it has "
+        name="Folder", description="Folder of views, LDIs and picture; "
+        "{blend_name} is the name of the file, so that a copy of it has "
         "views of its own", subtype="DIR_PATH",
         default="//views/{blend_name}/")
     views: bpy.props.IntProperty(
@@ -34,7 +34,7 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
     overscan_auto: bpy.props.BoolProperty(
         name="Auto Overscan", default=True,
         description="Render as many pixels beyond each side as the blur at "
-                    "the border needs, at each frame")
+                    "the border of the frame needs")
     overscan: bpy.props.IntProperty(
         name="Overscan", description="Pixels rendered beyond each side",
         default=0, min=0, max=4096, subtype="PIXEL")
@@ -44,18 +44,18 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
                     "a quarter of the samples, where ldi-plan advises it: if "
                     "many pixels are at edges of depth")
     supersample: bpy.props.IntProperty(
-        name="Supersample", description="Pixels rendered, across and down, "
-        "for each of the picture, with as many fewer samples",
+        name="Supersample", description="Render N x N pixels for each of the "
+        "picture, with 1/N^2 of the samples",
         default=1, min=1, max=16)
     shutter: bpy.props.IntProperty(
-        name="Moments of Shutter", description="Render the views of this "
-        "many moments while the shutter of Motion Blur is open, each with as "
-        "many fewer samples, for a picture with motion blur; 1: a still",
+        name="Moments of Shutter", description="Render the views at N "
+        "moments while the shutter of Motion Blur is open, each with 1/N of "
+        "the samples, for a picture with motion blur; 1: a still",
         default=1, min=1, max=shutter.MOST)
     finish: bpy.props.IntProperty(
-        name="Rays to Finish", description="Samples a pixel of the two "
-        "renders through the lens by which Finish makes the picture exact, "
-        "both together", default=80, min=2, soft_max=4096)
+        name="Rays to Finish", description="Samples per pixel, both together, "
+        "of the two renders through the lens that Finish makes",
+        default=80, min=2, soft_max=4096)
     finish_where_needed: bpy.props.BoolProperty(
         name="Rays Where Needed", description="Finish renders half of its "
         "rays first, and the others in rectangles where the picture needs "
@@ -65,18 +65,18 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         description="Render Animation finishes its pictures, too")
     slices: bpy.props.IntProperty(
         name="Slices of Volumes", description="Render volumes by themselves, "
-        "in this many slices of depth; 0: with everything else (Cycles)",
+        "in N slices of depth (Cycles); 0: with everything else",
         default=0, min=0, max=64)
     layers: bpy.props.StringProperty(
-        name="See-Through", description="Objects or collections, separated "
-        "by commas, that are rendered each as a layer of its own, such as "
-        "nets and films")
+        name="See-Through", description="Objects or collections to render "
+        "each as a layer of its own, such as nets and films, separated by "
+        "commas")
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
     animation: bpy.props.BoolProperty(
         name="Animation",
-        description="Render the views of all frames of the scene, else those "
+        description="Render the views of all frames of the scene, not only "
                     "of the current one")
     lens_looks: bpy.props.PointerProperty(type=SPARSELENS_Looks)
     looks: bpy.props.StringProperty(
@@ -84,14 +84,13 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         "such as --quality final")
     live: bpy.props.BoolProperty(
         name="Live", default=True,
-        description="Once a picture is taken, take it anew whenever focus, "
-                    "f-stop, blades, ratio or rotation change")
+        description="After Take Picture, make the picture anew whenever "
+                    "focus, f-stop, blades, ratio or rotation change")
     keep: bpy.props.BoolProperty(
         name="Keep Views",
-        description="Render Animation takes views that are there, where the "
-                    "camera, the picture's size and the samples are still "
-                    "the same. What else of the scene has changed it does "
-                    "not see")
+        description="Render Animation uses existing views if the camera, the "
+                    "picture's size and the samples are the same. It does "
+                    "not see other changes of the scene")
 
 
 def gigabytes(scene):
@@ -116,9 +115,9 @@ class SPARSELENS_Preferences(bpy.types.AddonPreferences):
 
     folder: bpy.props.StringProperty(
         name="Folder of the Tools", subtype="DIR_PATH",
-        description="Where ldi-warp and dof-gather are. If empty, they are "
-                    "looked for beside the add-on, in pip's package, and on "
-                    "the PATH")
+        description="Folder of ldi-warp and dof-gather. If empty, the add-on "
+                    "searches beside itself, in pip's package, and on the "
+                    "PATH")
 
     def draw(self, context):
         row = self.layout.row()
