@@ -169,7 +169,7 @@ double Device::most_turns() const {
 }
 
 Program Device::program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
-                        std::uint32_t push_bytes) {
+                        std::uint32_t push_bytes, std::span<const std::uint32_t> constants) {
     return guarded(info_, [&] {
         const vk::raii::Device &device = vulkan_->device;
         vk::raii::DescriptorSetLayout sets = make_set_layout(device, buffers);
@@ -179,7 +179,12 @@ Program Device::program(const char *name, std::span<const std::uint32_t> spirv, 
         vk::raii::PipelineLayout layout(device, create);
         const vk::raii::ShaderModule shader(device,
                                             vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
-        const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
+        std::vector<vk::SpecializationMapEntry> entries;
+        for (std::uint32_t n = 0; n < constants.size(); ++n) entries.emplace_back(n, 4 * n, 4);
+        const vk::SpecializationInfo special(std::uint32_t(entries.size()), entries.data(),
+                                             constants.size_bytes(), constants.data());
+        const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
+                                                      &special);
         vk::raii::Pipeline pipeline(device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
         return Program(std::make_unique<Program::Pipeline>(Program::Pipeline{
             name, buffers, push_bytes, std::move(sets), std::move(layout), std::move(pipeline)}));
@@ -310,6 +315,10 @@ std::size_t Device::largest_buffer() const {
         {properties.get<vk::PhysicalDeviceProperties2>().properties.limits.maxStorageBufferRange,
          properties.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
          watch_.largest_buffer}));
+}
+
+std::size_t Device::shared_bytes() const {
+    return vulkan_->physical.getProperties().limits.maxComputeSharedMemorySize;
 }
 
 Buffer Device::buffer(std::size_t bytes) {

@@ -77,6 +77,7 @@ public:
 
     const DeviceInfo &info() const { return info_; }
     std::size_t largest_buffer() const; // bytes that a program can reach
+    std::size_t shared_bytes() const;   // that a work group can share
     // The turns of loops that a work group may take. Mesa's software device ends a program after 65535 turns, and what
     // the program has not written is garbage. Other devices have no such bound.
     double most_turns() const;
@@ -92,8 +93,9 @@ public:
     void fill(Buffer &buffer, std::uint32_t word); // all of it
 
     // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0. `name`: for the times.
+    // `constants`: its specialization constants, from 0 on.
     Program program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
-                    std::uint32_t push_bytes);
+                    std::uint32_t push_bytes, std::span<const std::uint32_t> constants = {});
     void run(const Program &program, std::span<const Buffer *const> buffers, std::span<const std::byte> push,
              const std::array<std::uint32_t, 3> &groups);
 

@@ -64,18 +64,16 @@ inline bool is_crack(float x, float y, float depth_a, float depth_b) {
 }
 
 // A crack lies between two samples, in front of something that is farther than both by more than this, in pixels of
-// perceptive depth. The unevenness of their surface never reaches that. `shown`: the key of what a cell shows. Samples
-// that may have a crack between them, in front of it, have keys greater than the result.
+// perceptive depth. The unevenness of their surface never reaches that. `shown`: the upper half of the key that a cell
+// shows; 0: it shows nothing. Samples that may have a crack between them, in front of it, have greater upper halves than
+// the result.
 inline constexpr float behind_crack_px = 1;
-inline uint64_t behind_crack(uint64_t shown) {
-    const float depth = depth_of(upper_of(shown)) + behind_crack_px;
-    return key_of(shown == 0 ? background_upper : upper_of_depth(depth), 0xffffffffu);
+inline uint behind_crack(uint shown) {
+    return shown == 0 ? background_upper : upper_of_depth(depth_of(shown) + behind_crack_px);
 }
 
-// Returns a key. A sample that hides a filler of this depth has a greater one.
-inline uint64_t hiding_key(float depth) {
-    return key_of(upper_of_depth(depth + one_surface_px), 0xffffffffu);
-}
+// The upper half of the key of a sample that hides a filler of this depth is greater than the result.
+inline uint behind_upper(float depth) { return upper_of_depth(depth + one_surface_px); }
 
 // Whether an image in a mirror or glass is seen where their surface is.
 inline bool is_in_mirror(float image_depth, float depth) {
@@ -136,14 +134,18 @@ inline constexpr int tile_size = 64; // pixels a tile is wide and high
 // Cells around a tile: one for the pixels next to it, and one for what falls outside of those.
 inline constexpr int border = 2;
 inline constexpr int tile_stride = tile_size + 2 * border;
-inline constexpr uint threads = 256;              // of a work group, which gathers
 inline constexpr int size = 32;                   // pixels a quarter of a tile is wide and high
 inline constexpr uint quarters = 4;               // left and right above, left and right below
 inline constexpr uint pixels = uint(size * size); // of a quarter
-inline constexpr uint own = pixels / threads;     // pixels of a thread
 inline constexpr int side = size + 2;             // with the cells next to it, where cracks are looked for
 inline constexpr uint cells = uint(side * side);
-inline constexpr uint chunk = 512; // partial samples at once
+inline constexpr uint chunk = 256; // partial samples at once
+inline constexpr uint team = 32;   // threads that share a block
+// Each row of pixels begins with so much later an owner (tile_data.glsl), because what stands upright in the picture
+// must not be one thread's alone.
+inline constexpr uint turn = 11;
+// A bit of the upper halves of keys, which are smaller without it: set for all samples but fillers.
+inline constexpr uint hiding = 0x80000000u;
 static_assert(tile_size == 2 * size);
 
 // A block of samples or facets; lengths in pixels.
@@ -158,38 +160,39 @@ struct Lens {
     // Factors on the weight, for R, G and B: of the lens point, and for light from behind focus and in front.
     float red, green, blue;
     float red_behind, green_behind, blue_behind, red_in_front, green_in_front, blue_in_front;
-    float weight_before; // sum of the weights of the tile's lens points before it
 };
-static_assert(sizeof(Lens) == 60 && offsetof(Lens, weight_before) == 56);
+static_assert(sizeof(Lens) == 56 && offsetof(Lens, blue_in_front) == 52);
 
 struct Tile {
     float x, y;                        // of its first pixel
+    int size;                          // pixels across and down that are asked for
+    float weight;                      // of all its lens points
     uint blocks, block_count;          // among the lists of blocks
     uint fillers, filler_count;        // among the lists of blocks
     uint partial[4], partial_count[4]; // of each quarter, among the lists of partial samples
     uint lens, lens_count;             // among the lens points
     uint lens_in_pass;                 // the largest number of lens points in a pass
     uint facets, facet_count;          // blocks of them, among the lists of blocks
-    uint rules;                        // a set of the following
+    uint solids, solid_count;          // among the lists of blocks
     // where the columns begin that say which pixels see through a lens point
     uint columns;
-    uint holdout;             // where the tile's parts of the holdout begin
-    uint solids, solid_count; // among the lists of blocks
+    uint holdout; // where the tile's parts of the holdout begin
 };
-static_assert(sizeof(Tile) == 96 && offsetof(Tile, lens) == 56 && offsetof(Tile, solid_count) == 92);
+static_assert(sizeof(Tile) == 100 && offsetof(Tile, lens) == 64 && offsetof(Tile, holdout) == 96);
 
 // Lens points weigh differently for colours or for sides of the focus, or not all pixels see through them.
 inline constexpr uint weighted = 1;
 inline constexpr uint two_sided = 2; // lens points weigh differently for sides of the focus
-inline constexpr uint images = 4;    // mirrors or glass reach the tile
+inline constexpr uint images = 4;    // there are mirrors or glass
 inline constexpr uint cat_eye = 8;   // not all pixels see through a lens point
 inline constexpr uint darkens = 16;  // and this darkens the pixels
 inline constexpr uint holdout = 32;  // a holdout stays sharp
+inline constexpr uint with_partial = 64, with_facets = 128, with_solids = 256; // there are such samples
 
 struct Push {
-    uint first_tile, tile_count, sample_count, first_filler, pass;
+    uint first_tile, tile_count, sample_count, pass;
     float depth_at_1; // perceptive depth at z = 1
 };
-static_assert(sizeof(Push) == 24 && offsetof(Push, depth_at_1) == 20);
+static_assert(sizeof(Push) == 20 && offsetof(Push, depth_at_1) == 16);
 
 } // namespace sparselens::lens_kernel

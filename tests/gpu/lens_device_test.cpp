@@ -43,8 +43,9 @@ protected:
         EXPECT_GT(did.on_device, 0u);
         EXPECT_EQ(did.on_cpu, Tiles());
         EXPECT_EQ(did.failure, "");
-        for (const char *step : {"upload", "lens", "download"}) EXPECT_GT(did.ms.at(step), 0) << step;
-        EXPECT_LE(largest_difference(image, expected), tolerance); // sums in the same order: rounding at most
+        for (const char *step : {"lens", "download"}) EXPECT_GT(did.ms.at(step), 0) << step;
+        EXPECT_EQ(did.uploaded > 0, did.ms.contains("upload"));
+        EXPECT_LE(largest_difference(image, expected), tolerance); // sums in another order: rounding at most
         EXPECT_EQ(gather(ldi, options, by).values, image.values);
         device->take_report();
     }
@@ -218,7 +219,7 @@ TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
     looks.aperture.spherical = 0.5;
     looks.cat_eye = 0.9;
     Watch few = watch();
-    for (const double turns : {8000.0, 3000.0}) {
+    for (const double turns : {16000.0, 6000.0}) {
         few.most_turns = turns;
         device = open_gather_device(*info, few);
         expect_same(surfaces(90, 60, false, 14), {.lens_samples = 9});

@@ -13,7 +13,11 @@ fault() {
 
 shaders=$(find src/gpu -name '*.comp' -o -name '*.glsl' | sort)
 [ "$(wc -w <<<"$shaders")" -ge 10 ]
-if own=$(grep -nE '^(const|#define [a-z_]+ +[0-9.(-])' $shaders); then fault "a constant of a shader" "$own"; fi
+# Constants may follow from those that are set when a pipeline is made.
+set_late=$(grep -ohE '^layout\(constant_id = [0-9]+\) const uint [a-z]+' $shaders | sed 's/.* //' | paste -sd'|')
+if own=$(grep -nE '^(const|#define [a-z_]+ +[0-9.(-])' $shaders | grep -vE "= [^;]*\b($set_late)\b"); then
+    fault "a constant of a shader" "$own"
+fi
 
 constants=$(grep -ohE 'inline constexpr [a-z]+ [^;]*;' src/kernels/*.h | grep -oE '[a-z_0-9]+ =' | sed 's/ =//' | sort -u)
 structs=$(grep -ohE '^struct [A-Za-z]+ \{' src/kernels/*.h | sed 's/struct \(.*\) {/\1/' | sort -u)

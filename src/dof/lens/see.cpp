@@ -216,14 +216,14 @@ void See::find_cracks_before_others() {
 
 // Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
 std::uint64_t See::torn_at(std::size_t cell) const {
-    const std::uint64_t behind = kernels::behind_crack(seen_.front[cell]);
+    const std::uint32_t behind = kernels::behind_crack(kernels::upper_of(seen_.front[cell]));
     const BlockedSamples &samples = scene_.samples;
     const auto depth = [&](std::uint64_t key) { return samples.depth(std::uint32_t(key)); };
     std::uint64_t farthest = 0;
     for (const std::size_t step :
          {std::size_t{1}, std::size_t(stride), std::size_t(stride - 1), std::size_t(stride + 1)}) {
         const std::uint64_t one = seen_.front[cell - step], other = seen_.front[cell + step];
-        if (one <= behind || other <= behind) continue;
+        if (std::min(kernels::upper_of(one), kernels::upper_of(other)) <= behind) continue;
         const std::uint32_t a = std::uint32_t(one), b = std::uint32_t(other);
         if (!kernels::is_crack(samples.x[a] - samples.x[b], samples.y[a] - samples.y[b], depth(one),
                                depth(other)))
@@ -257,8 +257,8 @@ void See::see_fillers(const LensSample &point) {
 
 // Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
 bool See::hides(std::size_t cell, float depth) const {
-    const std::uint64_t limit = kernels::hiding_key(depth);
-    const auto front = [&](std::size_t c) { return seen_.front[c] > limit; };
+    const std::uint32_t limit = kernels::behind_upper(depth);
+    const auto front = [&](std::size_t c) { return kernels::upper_of(seen_.front[c]) > limit; };
     return front(cell) || (front(cell - 1) && front(cell + 1)) ||
            (front(cell - stride) && front(cell + stride));
 }

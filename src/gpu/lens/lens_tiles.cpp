@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -93,6 +94,35 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, eve
 // Tests of a sample by a lens point that are submitted at once. Operating systems end work that takes seconds.
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
+// Threads of a work group. In software, threads that have nothing to do cost as much as the others.
+std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 64 : 256; }
+
+// Lens points that a work group takes at once, by the memory that it shares (tile_data.glsl). More than four would share
+// little more.
+std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
+    const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
+                      of_point = cells * sizeof(std::uint64_t) + lens_kernel::chunk * sizeof(std::uint32_t),
+                      others = threads_on(device) * 3 * sizeof(std::uint32_t) + 64;
+    return std::uint32_t(
+        std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
+}
+
+// The lens points in an order in which so many of them at a time lie near each other: from side to side of the lens in
+// bands, back and forth. Points without weight fill up the last ones.
+std::vector<LensSample> in_groups(std::span<const LensSample> lens, std::size_t points) {
+    std::vector<LensSample> all(lens.begin(), lens.end());
+    const auto [top, bottom] = std::ranges::minmax(all, {}, &LensSample::y);
+    const float bands = std::sqrt(float(all.size()) / float(points)), high = (bottom.y - top.y) / bands;
+    const auto place = [&, first = top.y](const LensSample &p) {
+        const float band = high > 0 ? std::floor((p.y - first) / high) : 0;
+        return std::pair(band, std::fmod(band, 2.0f) > 0 ? -p.x : p.x);
+    };
+    std::ranges::stable_sort(all, {}, place);
+    LensSample none = all.back();
+    none.weight = 0;
+    all.resize(pieces_of(all.size(), points) * points, none);
+    return all;
+}
 
 // Tests of a sample by a lens point that one of the tile's passes takes.
 double work_of(const Stripe &stripe, const lens_kernel::Tile &tile) {
@@ -114,9 +144,18 @@ std::uint32_t passes_of(const Stripe &stripe) {
 
 } // namespace
 
+const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t points) {
+    if (const auto made = programs_.find(rules); made != programs_.end()) return made->second;
+    const std::array constants{threads_on(device_), points, rules};
+    return programs_.emplace(rules, device_.program("lens", code, 19, sizeof(lens_kernel::Push), constants))
+        .first->second;
+}
+
 void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done,
                                TileReport &report) {
+    const std::uint32_t rules = rules_of(scene, all), points = points_at_once(device_, rules);
+    std::map<const LensSample *, std::vector<LensSample>> lens; // by those of the tasks
     std::vector<TileTask> tasks;
     std::vector<std::size_t> numbers; // the number of each task among all tasks
     for (std::size_t n = 0; n < all.size(); ++n) {
@@ -126,8 +165,11 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
         }
         tasks.push_back(all[n]);
         numbers.push_back(n);
+        std::vector<LensSample> &grouped = lens[all[n].lens.data()];
+        if (grouped.empty()) grouped = in_groups(all[n].lens, points);
+        tasks.back().lens = grouped;
     }
-    if (!program_) program_.emplace(device_.program("lens", code, 19, sizeof(lens_kernel::Push)));
+    const Program &program = program_for(rules, points);
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     const double turns = std::min(turns_in_pass, device_.most_turns());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
@@ -137,15 +179,16 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
         if (count == 0) continue;
         const bool whole = count == tasks.size() && fits_whole(scene, tasks, bytes);
         if (!whole) buffers_ = {};
-        report.uploaded += buffers_.bring(device_, make_stripe(scene, left.first(count), whole, turns));
-        gather_stripe(scene,
+        report.uploaded +=
+            buffers_.bring(device_, make_stripe(scene, left.first(count), whole, points, turns));
+        gather_stripe(scene, program,
                       [&](std::size_t t, const TilePicture &picture) { done(numbers[begin + t], picture); });
         if (!whole) buffers_ = {};
         report.on_device += count;
     }
 }
 
-void LensTilesOnDevice::gather_stripe(const GatherScene &scene,
+void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &program,
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
     const std::size_t tiles = buffers_.stripe().tiles.size(), groups = scene.colours.groups,
                       all = tiles * tile_pixels * groups;
@@ -154,7 +197,7 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene,
     const std::uint32_t passes = passes_of(buffers_.stripe());
     const Buffer sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
     for (std::uint32_t pass = 0; pass < passes; ++pass)
-        run(pass, groups, float(scene.held_out.depth_at_1), buffers_.bindings(values, known, sums));
+        run(program, pass, groups, float(scene.held_out.depth_at_1), buffers_.bindings(values, known, sums));
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);
@@ -163,17 +206,15 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene,
     });
 }
 
-void LensTilesOnDevice::run(std::uint32_t pass, std::size_t groups, float depth_at_1,
+void LensTilesOnDevice::run(const Program &program, std::uint32_t pass, std::size_t groups, float depth_at_1,
                             std::span<const Buffer *const> buffers) {
     const Stripe &stripe = buffers_.stripe();
     const auto tiles = std::uint32_t(stripe.tiles.size());
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
-        const lens_kernel::Push push{
-            first, tiles,     std::uint32_t(stripe.alphas.size()), std::uint32_t(stripe.first_filler),
-            pass,  depth_at_1};
-        device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
+        const lens_kernel::Push push{first, tiles, std::uint32_t(stripe.alphas.size()), pass, depth_at_1};
+        device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
                     {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});
     }
 }

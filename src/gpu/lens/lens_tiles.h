@@ -6,7 +6,7 @@
 #include "gpu/device.h"
 #include "gpu/lens/stripe.h"
 
-#include <optional>
+#include <map>
 #include <vector>
 
 namespace sparselens::gpu {
@@ -37,14 +37,15 @@ public:
                 const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
 
 private:
-    void gather_stripe(const GatherScene &scene,
+    const Program &program_for(std::uint32_t rules, std::uint32_t points);
+    void gather_stripe(const GatherScene &scene, const Program &program,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
-    void run(std::uint32_t pass, std::size_t groups, float depth_at_1,
+    void run(const Program &program, std::uint32_t pass, std::size_t groups, float depth_at_1,
              std::span<const Buffer *const> buffers);
 
     Device &device_;
-    std::optional<Program> program_; // made when it is first needed
-    StripeBuffers buffers_;          // kept for the next frame if one stripe is everything
+    std::map<std::uint32_t, Program> programs_; // by their rules; made when they are first needed
+    StripeBuffers buffers_;                     // kept for the next frame if one stripe is everything
 };
 
 } // namespace sparselens::gpu

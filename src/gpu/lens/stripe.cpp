@@ -94,6 +94,7 @@ struct Placed {
     const SampleColours &colours;
     Range range;
     std::size_t sample = 0, block = 0;
+    std::uint32_t hiding = 0; // for the upper halves of keys
 };
 
 void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
@@ -103,7 +104,7 @@ void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
         for (std::uint32_t i = block.begin; i < block.end; ++i) {
             const std::size_t to = i - what.range.first(from) + what.sample;
             stripe.places[to] = {from.x[i], from.y[i]};
-            stripe.uppers[to] = from.upper[i];
+            stripe.uppers[to] = from.upper[i] | what.hiding;
             stripe.cocs[to] = from.hiding_coc()[i];
             stripe.alphas[to] = from.alpha[i];
             if (!stripe.shown.empty()) stripe.shown[to] = from.coc[i];
@@ -143,7 +144,7 @@ void place_solids(Stripe &stripe, const BlockedSamples &from, const Range &range
         for (std::size_t n = begin; n < end; ++n) {
             const std::size_t i = first + n, to = stripe.alphas.size() + n;
             stripe.places[to] = {from.x[i], from.y[i]};
-            stripe.uppers[to] = from.upper[i];
+            stripe.uppers[to] = from.upper[i] | lens_kernel::hiding;
             stripe.cocs[to] = from.coc[i];
             stripe.solids[n] = from.named[i] - first_sample;
         }
@@ -166,32 +167,33 @@ void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, 
 // Places the lens points, which tiles share.
 std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     const auto at = std::uint32_t(stripe.lens.size());
-    float before = 0;
-    for (const LensSample &p : lens) {
+    for (const LensSample &p : lens)
         stripe.lens.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2],
                                p.behind[0], p.behind[1], p.behind[2], p.in_front[0], p.in_front[1],
-                               p.in_front[2], before});
-        before += p.weight;
-    }
+                               p.in_front[2]});
     return at;
 }
 
 // Lists the tiles, and the blocks that reach each of them. The columns and the holdout are filled in later.
 void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTask> tasks,
-                const Ranges &ranges, double most_turns) {
+                const Ranges &ranges, std::uint32_t points, double most_turns) {
     const std::size_t fillers = ranges.samples.blocks(), solids = fillers + ranges.fillers.blocks(),
                       facets = solids + ranges.solids.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
-    std::uint32_t lens = 0, columns = 0, holdout = 0, rules = 0;
-    const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
+    std::uint32_t lens = 0, columns = 0, holdout = 0;
+    float weight = 0;
     for (const TileTask &task : tasks) {
         const bool another = &task == tasks.data() || task.lens.data() != (&task - 1)->lens.data();
-        if (another) lens = place_lens(stripe, task.lens);
-        if (another) rules = rules_of(scene, task.lens);
-        const bool mirrors = std::ranges::any_of(task.samples, shows_images);
+        if (another) {
+            lens = place_lens(stripe, task.lens);
+            weight = 0;
+            for (const LensSample &p : task.lens) weight += p.weight;
+        }
         stripe.tiles.push_back(
             {.x = float(task.origin.x),
              .y = float(task.origin.y),
+             .size = task.size,
+             .weight = weight,
              .blocks = list_blocks(stripe, ranges.samples, 0, task.samples),
              .block_count = count(task.samples),
              .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
@@ -200,14 +202,13 @@ void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTa
              .partial_count = {},
              .lens = lens,
              .lens_count = std::uint32_t(task.lens.size()),
-             .lens_in_pass = std::uint32_t(std::clamp(most_turns / turns_of(scene, task), 1.0, 1e6)),
+             .lens_in_pass = points * std::uint32_t(std::clamp(most_turns / turns_of(scene, task), 1.0, 1e6)),
              .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
              .facet_count = count(task.facets),
-             .rules = rules | (mirrors ? lens_kernel::images : 0),
-             .columns = columns,
-             .holdout = holdout,
              .solids = list_blocks(stripe, ranges.solids, solids, task.solids),
-             .solid_count = count(task.solids)});
+             .solid_count = count(task.solids),
+             .columns = columns,
+             .holdout = holdout});
         columns += std::uint32_t(column_words(scene, task));
         holdout += std::uint32_t(holdout_words(scene, task));
     }
@@ -253,9 +254,14 @@ std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> t
 }
 
 double turns_of(const GatherScene &scene, const TileTask &task) {
-    const auto blocks =
-        double(task.samples.size() + task.fillers.size() + task.solids.size() + 4 * task.facets.size());
-    return 100 + blocks + double(partial_count(scene.samples, task)) / 4;
+    const auto turns = [](const auto &blocks, std::span<const std::uint32_t> of) {
+        double sum = 0;
+        for (const std::uint32_t b : of) sum += 2 + double(blocks[b].end - blocks[b].begin) / 64;
+        return sum;
+    };
+    return 600 + turns(scene.samples.blocks, task.samples) +
+           turns(scene.fillers.samples.blocks, task.fillers) + 3 * turns(scene.solids.blocks, task.solids) +
+           12 * turns(scene.facets.blocks, task.facets) + double(partial_count(scene.samples, task));
 }
 
 bool fits_whole(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
@@ -267,7 +273,8 @@ bool fits_whole(const GatherScene &scene, std::span<const TileTask> tasks, std::
            2 * needed.sample_count(scene) >= count;
 }
 
-Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns) {
+Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole,
+                   std::uint32_t points, double most_turns) {
     Stripe stripe;
     Ranges ranges;
     if (whole)
@@ -275,7 +282,7 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
     else
         for (const TileTask &task : tasks) ranges.add(scene, task);
     const std::size_t groups = scene.colours.groups, count = ranges.sample_count(scene);
-    const Placed samples{scene.samples, scene.colours, ranges.samples},
+    const Placed samples{scene.samples, scene.colours, ranges.samples, 0, 0, lens_kernel::hiding},
         fillers{scene.fillers.samples, scene.fillers.colours, ranges.fillers,
                 ranges.samples.count(scene.samples), ranges.samples.blocks()};
     stripe.sets.assign(scene.colours.sets.begin(), scene.colours.sets.end());
@@ -285,7 +292,6 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
     stripe.alphas.resize(count);
     if (!scene.samples.surface_coc.empty() || !scene.fillers.samples.surface_coc.empty())
         stripe.shown.resize(count);
-    stripe.first_filler = fillers.sample;
     stripe.colours.resize(groups * count * 4);
     for (const Placed &what : {samples, fillers}) {
         place_samples(stripe, groups, what);
@@ -294,7 +300,7 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
     place_solids(stripe, scene.solids, ranges.solids, ranges.samples.first(scene.samples));
     place_blocks(stripe, {scene.solids, scene.colours, ranges.solids, count});
     place_facets(stripe, scene.facets, ranges.facets, ranges.samples.first(scene.samples));
-    list_tiles(stripe, scene, tasks, ranges, most_turns);
+    list_tiles(stripe, scene, tasks, ranges, points, most_turns);
     list_partial(stripe, scene.samples, tasks, ranges.samples.first(scene.samples));
     parallel_for(tasks.size(), [&](std::size_t t) {
         const lens_kernel::Tile &tile = stripe.tiles[t];
@@ -316,12 +322,22 @@ constexpr std::size_t words_a_part = 3;
 
 } // namespace
 
-std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens) {
-    const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
+std::uint32_t rules_of(const GatherScene &scene, std::span<const TileTask> tasks) {
     std::uint32_t rules = 0;
-    if (any([](const LensSample &p) { return p.rgb != no_factors; })) rules |= weighted;
-    if (any([](const LensSample &p) { return p.behind != no_factors || p.in_front != no_factors; }))
-        rules |= weighted | two_sided;
+    for (const TileTask &task : tasks) {
+        if (&task == tasks.data() || task.lens.data() != (&task - 1)->lens.data())
+            for (const LensSample &p : task.lens) {
+                if (p.rgb != no_factors) rules |= weighted;
+                if (p.behind != no_factors || p.in_front != no_factors) rules |= weighted | two_sided;
+            }
+        for (const std::uint32_t b : task.samples) {
+            const SampleBlock &block = scene.samples.blocks[b];
+            if (block.shows_images) rules |= images;
+            if (block.opaque_end != block.end) rules |= with_partial;
+        }
+        if (!task.facets.empty()) rules |= with_facets;
+        if (!task.solids.empty()) rules |= with_solids;
+    }
     if (scene.cat_eye()) rules |= weighted | cat_eye;
     if (scene.cat_eye() && scene.cat_eye()->darkens()) rules |= darkens;
     if (scene.held_out.by) rules |= holdout;

@@ -19,11 +19,10 @@ namespace sparselens::gpu {
 struct Stripe {
     // Samples: first those of the LDI, then fillers, then solids. Solids have no alphas and no colours.
     std::vector<std::array<float, 2>> places;
-    std::vector<std::uint32_t> uppers; // halves of keys
+    std::vector<std::uint32_t> uppers; // halves of keys, with lens_kernel::hiding except for fillers
     std::vector<float> cocs, alphas;
     std::vector<float> shown;   // CoCs of what samples show; empty without mirrors and glass: as `cocs`
     std::vector<float> colours; // [group][sample][4]
-    std::size_t first_filler = 0;
     std::vector<std::uint32_t> solids;      // the sample that each solid shows
     std::vector<lens_kernel::Block> blocks; // of samples, of fillers, of solids and of facets
     std::vector<std::uint32_t> facets;      // three samples each
@@ -43,20 +42,21 @@ std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> t
 // depend on the tasks, so that the next frame of a pull of focus finds them where they were.
 bool fits_whole(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
 
-// How many turns of the program's loops a lens point of the tile takes; an upper estimate.
+// How many turns of the program's loops some lens points, taken at once, of the tile take; an upper estimate.
 double turns_of(const GatherScene &scene, const TileTask &task);
 
-// `whole`: the stripe has all samples of the scene; else those that the tasks need. `most_turns`: in a pass; at least
-// turns_of() for each task.
-Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns);
+// `whole`: the stripe has all samples of the scene; else those that the tasks need. The lens points of each task are
+// taken `points` at a time. `most_turns`: in a pass; at least turns_of() for each task.
+Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole,
+                   std::uint32_t points, double most_turns);
 
 // The rules by which a tile is gathered on a device, and what these rules look up for each of its pixels: which lens
 // points it sees through past a cat-eye, and what a holdout lets through there; and for its quarters, their samples of
 // partial coverage.
 inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
 
-// Returns the rules of lens_rules.h, except `images`.
-std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens);
+// Returns the rules of lens_rules.h that any of the tasks needs.
+std::uint32_t rules_of(const GatherScene &scene, std::span<const TileTask> tasks);
 
 // [lens point][two rows]: where the pixels of a row that see through the lens point begin and end, 8 bits each. Empty
 // without a cat-eye.

@@ -1,9 +1,9 @@
-// The data of the lens gather's kernel: bindings, shared memory, and the current lens point. All belong to one stripe
-// (stripe.h).
+// The data of the lens gather's kernel: bindings, shared memory, and the state of a work group. All belong to one
+// stripe (stripe.h).
 
 // Samples. Data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
-// The upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
+// The upper half of the key, with the bit `hiding` except for fillers.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
 layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][sample]
 layout(binding = 3) readonly buffer Blocks { Block blocks[]; };
@@ -28,23 +28,48 @@ layout(binding = 17) readonly buffer Shown { float shown[]; };
 layout(binding = 18) buffer Sums { vec4 sums[]; };
 layout(push_constant) uniform Pushed { Push push; };
 
-shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest images or fillers; 0: none
-shared uint near_blocks[threads]; // the blocks that reach the quarter
-shared uint near_count;
-shared uint empty_count;
-shared uint counts[pixels]; // of partial samples, then where the next one is listed
-shared uint listed[chunk];
-shared uint listed_count;
+// The rules that the stripe needs are known when the pipeline is made: the others leave nothing behind in it.
+layout(local_size_x_id = 0) in;
+layout(constant_id = 0) const uint workers = 256; // of a work group
+layout(constant_id = 1) const uint points = 4;    // of the lens, at once
+layout(constant_id = 2) const uint rules = 0;
+const bool is_weighted = (rules & weighted) != 0, is_two_sided = (rules & two_sided) != 0,
+           has_images = (rules & images) != 0, has_cat_eye = (rules & cat_eye) != 0,
+           has_holdout = (rules & holdout) != 0;
+const uint own = pixels / workers;             // pixels of a thread
+const uint rows = workers / size;              // of pixels that threads own side by side
+const uint images_from = points * cells;       // in front[]
+const uint fronts = images_from + (rules & images) / images * images_from;
 
-// State of the current quarter and lens point.
+// [lens point][cell]: keys of the nearest samples, with fillers where there are none; 0: nothing. Then the same of the
+// nearest images, and later of what each cell shows.
+shared uint64_t front[fronts];
+shared uvec2 near[workers]; // the samples of the blocks that reach the quarter: begin, end
+shared uint near_count, empty_count;
+// Partial samples in front of the pixels of each thread, as a chain of entries: [thread] the first, [entry] the next.
+shared uint chains[workers], nexts[chunk * points];
+
+// State of the current quarter and lens points.
 ivec2 corner; // in the tile
 vec2 first;   // pixel
-uint rules;   // of the tile
 uint partial_first, partial_count; // of the quarter
 uint held_out; // where the tile's part of holdouts[] begins
-Lens lens;
+uint first_lens, first_column; // of the lens points
+vec4 eyes[points]; // where each lens point looks from: x, y on the lens, x, y in the pixel
+
+struct Sum {
+    vec4 light;
+    vec4 weight; // the known weight of each channel; without the rule `weighted`, x: the unknown weight
+};
+Sum sum[own]; // of the thread's pixels, over the lens points so far
 
 uint thread() { return gl_LocalInvocationIndex; }
-
-ivec2 pixel_of(uint j) { return ivec2((thread() + threads * j) % size, (thread() + threads * j) / size); }
-uint cell_of(ivec2 pixel) { return uint((pixel.y + 1) * side + pixel.x + 1); }
+// A pixel's owner is the thread that adds to it.
+ivec2 pixel_of(uint j) {
+    const uint y = j * rows + thread() / size;
+    return ivec2((thread() + turn * y) % size, y);
+}
+uint owner_of(uvec2 pixel) { return pixel.y % rows * size + (pixel.x - turn * pixel.y) % size; }
+uint cell_of(uint l, ivec2 pixel) { return l * cells + uint((pixel.y + 1) * side + pixel.x + 1); }
+uint sample_at(uint cell) { return sample_of(front[cell]); }
+float depth_in(uint sample_) { return depth_of(uppers[sample_] & ~hiding); }

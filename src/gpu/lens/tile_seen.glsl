@@ -1,82 +1,92 @@
-// Finds the nearest key in each cell that a lens point sees: of opaque samples, of facets between them (dof/facets) and
-// of solids behind them (dof/lens/sample_blocks.h).
+// Finds the nearest key in each cell that the lens points see: of opaque samples, of facets between them (dof/facets)
+// and of solids behind them (dof/lens/sample_blocks.h). Each sample is read once for all of the lens points.
 
-// Returns the pixel of the quarter, or next to it, in which the lens point sees a sample; outside: x < -1.
-ivec2 seen_at(uint sample_, float coc) {
-    const vec2 place = places[sample_];
-    const float x = seen_along(place.x, first.x - 1, coc, lens.x, lens.pixel_x + shift_of_samples),
-                y = seen_along(place.y, first.y - 1, coc, lens.y, lens.pixel_y + shift_of_samples);
+// The lens point number `l`, where it need not be one of eyes[] that the compiler knows.
+vec4 eye_of(uint l) {
+    const uint p = first_lens + l;
+    return vec4(lens_points[p].x, lens_points[p].y, lens_points[p].pixel_x, lens_points[p].pixel_y);
+}
+
+// Returns the pixel of the quarter, or next to it, in which a lens point sees a sample; outside: x < -1.
+ivec2 seen_at(vec2 place, float coc, vec4 eye) {
+    const float x = seen_along(place.x, first.x - 1, coc, eye.x, eye.z + shift_of_samples),
+                y = seen_along(place.y, first.y - 1, coc, eye.y, eye.w + shift_of_samples);
     const ivec2 at = ivec2(int(cell_along(x, tile_stride - 1)), int(cell_along(y, tile_stride - 1))) - border - corner;
     const bool inside = all(greaterThanEqual(at, ivec2(-1))) && all(lessThanEqual(at, ivec2(size)));
     return inside ? at : ivec2(-2);
 }
 
-bool out_of_reach(Block b) {
-    const vec2 a = b.coc_min * vec2(lens.x, lens.y), c = b.coc_max * vec2(lens.x, lens.y);
-    const vec2 least = min(a, c), most = max(a, c), begin = first + vec2(corner) - 1 - vec2(lens.pixel_x, lens.pixel_y),
-               end = begin + side;
+bool out_of_reach(Block b, vec4 eye) {
+    const vec2 a = b.coc_min * eye.xy, c = b.coc_max * eye.xy, least = min(a, c), most = max(a, c),
+               begin = first + vec2(corner) - 1 - eye.zw, end = begin + side;
     return b.x_max + most.x + 1 < begin.x || b.x_min + least.x - 1 > end.x || b.y_max + most.y + 1 < begin.y ||
            b.y_min + least.y - 1 > end.y;
 }
 
-// Lists the blocks that reach the quarter, out of up to `threads` blocks. Begins and ends with a barrier.
-void find_near(uint list, uint count) {
+// Lists the blocks that any lens point moves into the quarter, out of up to `workers` blocks, and returns the first one
+// of the thread. Begins and ends with a barrier.
+uint first_near(uint list, uint count) {
     barrier();
     if (thread() == 0) near_count = 0;
     barrier();
     if (thread() < count) {
-        const uint b = block_lists[list + thread()];
-        if (!out_of_reach(blocks[b])) near_blocks[atomicAdd(near_count, 1)] = b;
+        const Block b = blocks[block_lists[list + thread()]];
+        bool reaches = false;
+        [[dont_unroll]] for (uint l = 0; l < points; ++l) reaches = reaches || !out_of_reach(b, eye_of(l));
+        if (reaches) near[atomicAdd(near_count, 1)] = uvec2(b.begin, b.opaque_end);
     }
     barrier();
+    return thread() / team;
 }
 
-// Finds the nearest opaque samples of listed blocks, into front[offset + cell]. Ends with a barrier.
-void see_opaque(uint list, uint count, uint offset) {
-    for (uint c = thread(); c < cells; c += threads) front[offset + c] = 0UL;
-    for (uint begin = 0; begin < count; begin += threads) {
-        find_near(list + begin, count - begin);
-        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
-            const Block b = blocks[near_blocks[n]];
-            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
-                const ivec2 at = seen_at(i, cocs[i]);
-                if (at.x >= -1) atomicMax(front[offset + cell_of(at)], key_of(uppers[i], i));
-            }
+// Runs what follows for i.x = each opaque sample, or facet, of listed blocks, for all lens points.
+#define FOR_NEAR(i, list, count)                                                                    \
+    for (uint listed_ = 0; listed_ < (count); listed_ += workers)                                   \
+        for (uint n_ = first_near((list) + listed_, (count) - listed_); n_ < near_count; n_ += workers / team) \
+            for (uvec2 i = near[n_] + uvec2(thread() % team, 0); i.x < i.y; i.x += team)
+
+// Finds the images that a lens point sees in mirrors and glass, where their surface is seen.
+
+bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
+
+// The key is greater for a smaller CoC, then for a smaller index.
+uint64_t image_key(uint sample_) {
+    const float coc = shown[sample_];
+    const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
+    return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
+}
+
+// Finds the nearest samples of a kind: those that show themselves; solids, which hide what lies behind them, in cells
+// that show something; and images.
+void see(uint kind, uint list, uint count) {
+    FOR_NEAR(i, list, count) {
+        if (kind == images && !is_image(i.x)) continue;
+        const vec2 place = places[i.x];
+        const float coc = kind == images ? shown[i.x] : cocs[i.x];
+        const uint names = kind == with_solids ? solids[i.x - push.sample_count] : i.x;
+        const uint64_t key = kind == images ? image_key(i.x) : key_of(uppers[i.x], names);
+        for (uint l = 0; l < points; ++l) {
+            const ivec2 at = seen_at(place, coc, eyes[l]);
+            if (at.x < -1 || (kind == with_solids && front[cell_of(l, at)] == 0UL)) continue;
+            atomicMax(front[(kind == images ? images_from : 0) + cell_of(l, at)], key);
         }
     }
-    barrier();
 }
 
-// Solids hide what lies behind them, in cells that show something. Ends with a barrier.
-void see_solids(uint list, uint count) {
-    for (uint begin = 0; begin < count; begin += threads) {
-        find_near(list + begin, count - begin);
-        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
-            const Block b = blocks[near_blocks[n]];
-            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
-                const ivec2 at = seen_at(i, cocs[i]);
-                if (at.x < -1 || front[cell_of(at)] == 0UL) continue;
-                atomicMax(front[cell_of(at)], key_of(uppers[i], solids[i - push.sample_count]));
-            }
-        }
-    }
-    barrier();
-}
-
-// A facet's corners as the lens point sees them, in cells of the tile.
+// A facet's corners as a lens point sees them, in cells of the tile.
 struct Triangle {
     vec3 x, y;
     uint corner[3]; // samples
 };
 
-Triangle triangle_of(uint facet) {
+Triangle triangle_of(uint facet, vec4 eye) {
     Triangle t;
     for (uint k = 0; k < 3; ++k) {
         t.corner[k] = facets[3 * facet + k];
         const vec2 place = places[t.corner[k]];
         const float coc = cocs[t.corner[k]];
-        t.x[k] = seen_along(place.x, first.x - 1, coc, lens.x, lens.pixel_x + shift_of_facets);
-        t.y[k] = seen_along(place.y, first.y - 1, coc, lens.y, lens.pixel_y + shift_of_facets);
+        t.x[k] = seen_along(place.x, first.x - 1, coc, eye.x, eye.z + shift_of_facets);
+        t.y[k] = seen_along(place.y, first.y - 1, coc, eye.y, eye.w + shift_of_facets);
     }
     return t;
 }
@@ -97,7 +107,7 @@ float area(Triangle t, uint from, uint to, vec2 at) {
     return twice_area(t.x[from], t.y[from], t.x[to], t.y[to], at.x, at.y);
 }
 
-void draw(Triangle t) {
+void draw(Triangle t, uint l) {
     const ivec2 columns = extent_of(t.x, corner.x), rows = extent_of(t.y, corner.y);
     const float turned = area(t, 0, 1, vec2(t.x[2], t.y[2])) < 0 ? -1 : 1;
     for (int row = rows[0]; row <= rows[1]; ++row)
@@ -106,63 +116,28 @@ void draw(Triangle t) {
                         c = turned * area(t, 0, 1, vec2(column, row));
             if (a < 0 || b < 0 || c < 0) continue;
             const uint nearest = t.corner[nearest_corner(a, b, c)];
-            atomicMax(front[cell_of(ivec2(column, row) - border - corner)], key_of(uppers[nearest], nearest));
+            atomicMax(front[cell_of(l, ivec2(column, row) - border - corner)], key_of(uppers[nearest], nearest));
         }
 }
 
-// Draws facets, which close steep surfaces between their samples, into front[]. Ends with a barrier.
+// Draws facets, which close steep surfaces between their samples.
 void see_facets(uint list, uint count) {
-    for (uint begin = 0; begin < count; begin += threads) {
-        find_near(list + begin, count - begin);
-        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
-            const Block b = blocks[near_blocks[n]];
-            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
-                const Triangle t = triangle_of(i);
-                if (parted(t.x) || parted(t.y)) draw(t);
-            }
+    FOR_NEAR(i, list, count)
+        [[dont_unroll]] for (uint l = 0; l < points; ++l) {
+            const Triangle t = triangle_of(i.x, eye_of(l));
+            if (parted(t.x) || parted(t.y)) draw(t, l);
         }
-    }
-    barrier();
-}
-
-// Finds the images that a lens point sees in mirrors and glass, where their surface is seen. Comes after see_opaque()
-// and see_facets().
-
-bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
-
-// The key is greater for a smaller CoC, then for a smaller index.
-uint64_t image_key(uint sample_) {
-    const float coc = shown[sample_];
-    const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
-    return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
-}
-
-// Finds the nearest image in each cell, into front[cells + cell]. Ends with a barrier.
-void see_images(uint list, uint count) {
-    for (uint c = thread(); c < cells; c += threads) front[cells + c] = 0UL;
-    for (uint begin = 0; begin < count; begin += threads) {
-        find_near(list + begin, count - begin);
-        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
-            const Block b = blocks[near_blocks[n]];
-            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
-                if (!is_image(i)) continue;
-                const ivec2 at = seen_at(i, shown[i]);
-                if (at.x >= -1) atomicMax(front[cells + cell_of(at)], image_key(i));
-            }
-        }
-    }
-    barrier();
 }
 
 // Returns the sample whose image shows in a cell; else the front sample.
 uint image_at(uint cell) {
-    const uint sample_ = sample_of(front[cell]);
+    const uint sample_ = sample_at(cell);
     if (!is_image(sample_)) return sample_;
     const uint around[5] = {cell, cell - 1, cell + 1, cell - side, cell + side};
     for (uint n = 0; n < 5; ++n) {
-        const uint64_t key = front[cells + around[n]];
+        const uint64_t key = front[images_from + around[n]];
         const uint image = sample_of(~key);
-        if (key != 0UL && is_in_mirror(depth_of(uppers[image]), depth_of(uppers[sample_]))) return image;
+        if (key != 0UL && is_in_mirror(depth_in(image), depth_in(sample_))) return image;
     }
     return sample_;
 }
@@ -170,62 +145,102 @@ uint image_at(uint cell) {
 // Finds what a lens point sees where it meets no opaque sample, or only one far behind: a surface through the cracks
 // between its samples, else fillers.
 
-// Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
-uint64_t torn_at(uint cell) {
-    const uint64_t behind = behind_crack(front[cell]);
+// The upper half of the key of the opaque sample at a cell; 0: there is none.
+uint opaque_at(uint cell) {
+    const uint upper = upper_of(front[cell]);
+    return upper >= hiding ? upper - hiding : 0;
+}
+
+// Returns the key of the sample that shows through a crack at a cell; 0: there is no crack. `axes`: bits,
+// as Odd has them.
+uint64_t torn_at(uint cell, uint axes) {
     uint64_t farthest = 0UL;
-    const uint steps[4] = {1, side, side - 1, side + 1};
-    for (uint s = 0; s < 4; ++s) {
-        const uint step = steps[s];
-        const uint64_t one = front[cell - step], other = front[cell + step];
-        if (one <= behind || other <= behind) continue;
+    float farthest_depth = 0;
+    for (; axes != 0; axes &= axes - 1) {
+        const uint s = findLSB(axes), step_ = s == 0 ? 1 : s == 1 ? side : side + 2 * s - 5;
+        const uint64_t one = front[cell - step_], other = front[cell + step_];
         const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
-        const float depth_a = depth_of(uppers[sample_of(one)]), depth_b = depth_of(uppers[sample_of(other)]);
-        if (!is_crack(apart.x, apart.y, depth_a, depth_b)) continue;
-        const uint64_t farther = depth_a <= depth_b ? one : other;
-        if (farthest == 0UL || depth_of(uppers[sample_of(farther)]) < depth_of(uppers[sample_of(farthest)])) farthest = farther;
+        const float depth_a = depth_in(sample_of(one)), depth_b = depth_in(sample_of(other)), depth = min(depth_a, depth_b);
+        if (!is_crack(apart.x, apart.y, depth_a, depth_b) || (farthest != 0UL && depth >= farthest_depth)) continue;
+        farthest = depth_a <= depth_b ? one : other;
+        farthest_depth = depth;
     }
     return farthest;
 }
 
 // Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
 bool hides(uint cell, float depth) {
-    const uint64_t limit = hiding_key(depth);
-    return front[cell] > limit || (front[cell - 1] > limit && front[cell + 1] > limit) ||
-           (front[cell - side] > limit && front[cell + side] > limit);
+    const uint limit = behind_upper(depth);
+    return opaque_at(cell) > limit || (opaque_at(cell - 1) > limit && opaque_at(cell + 1) > limit) ||
+           (opaque_at(cell - side) > limit && opaque_at(cell + side) > limit);
 }
 
-// Returns what lies behind the partial samples in the thread's pixels: a sample, or `none` if it is unknown. Closes
-// cracks in front[]. Ends with a barrier.
-uint[own] see_behind(Tile tile) {
-    if (thread() == 0) empty_count = 0;
-    see_opaque(tile.blocks, tile.block_count, 0);
-    see_facets(tile.facets, tile.facet_count);
-    if (tile.solid_count > 0) see_solids(tile.solids, tile.solid_count);
-    if ((rules & images) != 0) see_images(tile.blocks, tile.block_count);
-    uint seen[own];
-    uint64_t torn[own];
+// The thread's cells that may show something else than their front sample, and what they show.
+struct Odd {
+    // The cell in the lower 16 bits; above them, bits: whether the cells left and right, above and below, and on each
+    // diagonal are both in front of it.
+    uint where;
+    uint shows; // a sample
+    uint64_t front;
+};
+Odd odd[own * points];
+uint odd_count;
+
+// Finds empty cells and cracks, and where images may show.
+void find_odd() {
     bool any_empty = false;
-    for (uint j = 0; j < own; ++j) {
-        const uint cell = cell_of(pixel_of(j));
-        const uint64_t key = front[cell];
-        seen[j] = key == 0UL ? none : (rules & images) != 0 ? image_at(cell) : sample_of(key);
-        torn[j] = torn_at(cell);
-        any_empty = any_empty || key == 0UL;
+    odd_count = 0;
+    for (uint l = 0; l < points; ++l) {
+        uint cell = cell_of(l, ivec2(thread() % size, thread() / size * own));
+        uvec3 above = uvec3(opaque_at(cell - side - 1), opaque_at(cell - side), opaque_at(cell - side + 1)),
+              here = uvec3(opaque_at(cell - 1), opaque_at(cell), opaque_at(cell + 1));
+        for (uint j = 0; j < own; ++j, cell += side) {
+            const uint down = cell + side;
+            const uvec3 below = uvec3(opaque_at(down - 1), opaque_at(down), opaque_at(down + 1));
+            const uvec4 in_front = uvec4(greaterThan(min(uvec4(here.x, above.yzx), uvec4(here.z, below.yxz)),
+                                                     uvec4(behind_crack(here.y))));
+            const uint axes = in_front.x | in_front.y << 1 | in_front.z << 2 | in_front.w << 3;
+            if (has_images || here.y == 0 || axes != 0) odd[odd_count++].where = cell | axes << 16;
+            any_empty = any_empty || here.y == 0;
+            above = here;
+            here = below;
+        }
     }
-    if (any_empty) atomicAdd(empty_count, 1);
-    barrier();
-    if (empty_count != 0) see_opaque(tile.fillers, tile.filler_count, cells);
-    for (uint j = 0; j < own; ++j) {
-        const uint cell = cell_of(pixel_of(j));
-        if (torn[j] != 0UL) seen[j] = sample_of(torn[j]);
-        if (seen[j] != none) continue;
-        const uint64_t filler = front[cells + cell];
-        if (filler != 0UL && !hides(cell, depth_of(upper_of(filler)))) seen[j] = sample_of(filler);
+    if (any_empty) empty_count = 1; // all threads write the same
+}
+
+void settle_odd() {
+    for (uint n = 0; n < odd_count; ++n) {
+        const uint cell = odd[n].where & 0xffff;
+        const uint64_t torn = torn_at(cell, odd[n].where >> 16), key = front[cell];
+        const bool is_filler = upper_of(key) < hiding, hidden = is_filler && hides(cell, depth_of(upper_of(key)));
+        odd[n].front = torn != 0UL ? torn : hidden ? 0UL : key;
+        if (has_images) odd[n].shows = torn != 0UL || is_filler ? sample_of(odd[n].front) : image_at(cell);
     }
     barrier();
-    for (uint j = 0; j < own; ++j)
-        if (torn[j] != 0UL) front[cell_of(pixel_of(j))] = torn[j];
+    for (uint n = 0; n < odd_count; ++n) {
+        const uint cell = odd[n].where & 0xffff;
+        front[cell] = odd[n].front;
+        if (has_images) front[images_from + cell] = key_of(0, odd[n].shows);
+    }
+}
+
+// Finds what lies behind the partial samples in the quarter's pixels, into front[]. Ends with a barrier.
+void see_behind(Tile tile) {
+    for (uint c = thread(); c < fronts; c += workers) front[c] = 0UL;
+    if (thread() == 0) empty_count = 0;
+    see(0, tile.blocks, tile.block_count);
+    if ((rules & with_facets) != 0) see_facets(tile.facets, tile.facet_count);
+    if ((rules & with_solids) != 0) {
+        barrier();
+        see(with_solids, tile.solids, tile.solid_count);
+    }
+    if (has_images) see(images, tile.blocks, tile.block_count);
     barrier();
-    return seen;
+    find_odd();
+    barrier();
+    if (empty_count != 0) see(0, tile.fillers, tile.filler_count);
+    barrier();
+    settle_odd();
+    barrier();
 }
