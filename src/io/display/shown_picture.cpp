@@ -193,7 +193,7 @@ std::string endings() {
 } // namespace
 
 std::string picture_formats() {
-    return fmt::format("EXR, or what OpenImageIO writes of {}", fmt::join(usual, ", "));
+    return fmt::format("EXR, or through OpenImageIO {}", fmt::join(usual, ", "));
 }
 
 std::string wrong_with_output(const std::string &path, OutputKind kind) {
