@@ -74,7 +74,7 @@ void run(const Options &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    return run_frames("ldi-cluster", "Merges the samples of each pixel by perceptive depth", argc, argv,
+    return run_frames("ldi-cluster", "Merges the samples of each pixel by disparity", argc, argv,
                       [&](CLI::App &app) {
                           const auto options = std::make_shared<Options>();
                           add_options(app, *options);

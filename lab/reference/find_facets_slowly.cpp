@@ -11,7 +11,7 @@ namespace sparselens {
 
 namespace {
 
-// An opaque sample, its pixel, and its perceptive depth. The depth is a float, as where samples are sorted, so that
+// An opaque sample, its pixel, and its disparity. The depth is a float, as where samples are sorted, so that
 // equal depths are equal in both places.
 struct Opaque {
     Imath::V2i pixel;
@@ -29,7 +29,7 @@ public:
         if (!ldi_.windows.data.intersects(pixel)) return found;
         for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
             if (alpha_at(ldi_, ldi_.alpha(), i) >= 0.9995f)
-                found.push_back({pixel, i, float(perceptive_depth(lens_, 1)) / ldi_.z[i]});
+                found.push_back({pixel, i, float(disparity(lens_, 1)) / ldi_.z[i]});
         return found;
     }
 

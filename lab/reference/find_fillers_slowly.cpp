@@ -16,7 +16,7 @@ namespace {
 // The last thing in a pixel.
 struct Ground {
     Imath::V2i pixel;
-    double depth;                        // perceptive
+    double depth;                        // disparity
     std::optional<std::uint64_t> sample; // empty: nothing
 };
 using Found = std::optional<Ground>;
@@ -58,7 +58,7 @@ public:
 private:
     bool holds(const Imath::V2i &pixel, double depth) const {
         for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
-            if (std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth) < one_surface_px) return true;
+            if (std::abs(disparity(lens_, double(ldi_.z[i])) - depth) < one_surface_px) return true;
         return false;
     }
     static bool fills_before(const Side &a, const Side &b) {
@@ -80,7 +80,7 @@ private:
         for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y))) {
             const double alpha = std::clamp(double(alpha_at(ldi_, ldi_.alpha(), i)), 0.0, 1.0);
             left *= 1 - alpha;
-            if (alpha >= 0.5) last = Ground{pixel, perceptive_depth(lens_, double(ldi_.z[i])), i};
+            if (alpha >= 0.5) last = Ground{pixel, disparity(lens_, double(ldi_.z[i])), i};
         }
         if (left < 1.0 / 2048) return last;
         return known_.intersects(pixel) ? Found(Ground{pixel, 0, {}}) : Found();

@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr double torn = 1; // pixels of perceptive depth: surfaces farther apart are separate
+constexpr double torn = 1; // pixels of disparity: surfaces farther apart are separate
 
 struct Edge {
     double place, coc;
@@ -27,7 +27,7 @@ struct Seen {
     Imath::V2d place;
     double coc;   // displacement where it hides
     double shine; // displacement of its light
-    double depth; // perceptive, pixels
+    double depth; // disparity, pixels
     double alpha;
     Edge left, right, above, below;
 };
@@ -47,7 +47,7 @@ Samples place(const Ldi &ldi, const ThinLens &lens) {
                                Imath::V2d(pixel) + Imath::V2d(0.5) + offset,
                                is_opaque(alpha) ? circle_of_confusion(lens, z) : shine,
                                shine,
-                               perceptive_depth(lens, z),
+                               disparity(lens, z),
                                is_opaque(alpha) ? 1 : double(alpha),
                                {},
                                {},

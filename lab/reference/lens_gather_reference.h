@@ -11,7 +11,7 @@
 //
 // An opaque sample of a mirror or of glass (Ldi::optical) is met at its surface. The colour that it shows there comes
 // from such samples displaced by the CoC of their images: from the one with the nearest image among those that cover
-// the point, if its surface is within one pixel of perceptive depth; else the same in the pixel to the left, to the
+// the point, if its surface is within one pixel of disparity; else the same in the pixel to the left, to the
 // right, above or below; else its own. Partial samples are simply displaced by the CoC of their images.
 //
 // Behind a sample with Ldi::solid s there is an opaque solid at 1 / z - s. A lens point that meets something opaque

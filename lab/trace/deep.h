@@ -21,7 +21,7 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
 Ldi render_visible(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
                    Progress &progress, const Imath::V2d &u = {0, 0});
 
-// The scene, cut by planes into `strata` depth intervals that are equal in perceptive depth from the nearest visible
+// The scene, cut by planes into `strata` depth intervals that are equal in disparity from the nearest visible
 // surface to infinity (the first one begins at the camera). Each is rendered as if the others did not exist, with a box
 // filter and one depth per sample, at the pixel centre if the stratum has a surface there. A surface hidden by another
 // surface of its own stratum is lost; one hidden by another stratum is kept. In a pixel where a surface crosses from

@@ -260,7 +260,7 @@ void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vect
     if (!request.noisy.empty())
         for (PackedView &view : views) denoised.push_back(part_denoised(view, request.noisy));
     if (!denoised.empty())
-        take_denoised(views, denoised, by.focal_px, perceptive_scale(by.radius, by.focal_px));
+        take_denoised(views, denoised, by.focal_px, disparity_scale(by.radius, by.focal_px));
 }
 
 namespace {

@@ -286,7 +286,7 @@ ClusterOptions options_for(const Camera &camera, const Windows &windows, const C
     // either.
     const double tolerance = request.tolerance.value_or(0.25);
     const bool must_know = tolerance > 0 && (request.tolerance || request.layers == 0);
-    const auto scale = perceptive_scale(camera, windows, must_know);
+    const auto scale = disparity_scale(camera, windows, must_know);
     has_scale = scale.has_value();
     if (!scale) return by;
     by.scale = *scale;

@@ -61,13 +61,13 @@ KnownLens known_lens(const Match &match, const Reduced &in) {
     if (match.request.fit != MatchFit::fstop) return known;
     if (!match.camera.focus_distance)
         throw UsageError("the focus distance is unknown: give `focus_distance`");
-    known.focus = perceptive_depth(in.depth_scale(), *match.camera.focus_distance);
+    known.focus = disparity(in.depth_scale(), *match.camera.focus_distance);
     return known;
 }
 
 BlurGuess guess_near(const MatchedLens &near, const Reduced &in) {
     const double scale = near.lens_radius.value / in.radius();
-    const double focus = perceptive_depth(in.depth_scale(), near.focus_distance.value);
+    const double focus = disparity(in.depth_scale(), near.focus_distance.value);
     return {scale * (focus - in.pictures.middle), scale, std::pow(near.softness / in.by(), 2)};
 }
 
@@ -75,7 +75,7 @@ Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.nam
     const int factor = by * match.across;
     if (factor > 1)
         ldi_ = proxy(match.in.ldi, factor,
-                     {.scale = *perceptive_scale(match.camera, match.in.ldi.windows, true),
+                     {.scale = *disparity_scale(match.camera, match.in.ldi.windows, true),
                       .tolerance = layer_tolerance_px * factor});
     else
         ldi_ = match.in.ldi;
@@ -95,7 +95,7 @@ Reduced::Reduced(const Match &match, int by, bool is_final) : name_(match.in.nam
     };
 }
 
-double Reduced::depth_scale() const { return perceptive_scale(radius_, focal_px_); }
+double Reduced::depth_scale() const { return disparity_scale(radius_, focal_px_); }
 
 void Reduced::choose_gathers(const Match &match, bool is_final) {
     const GivenLooks &looks = match.request.looks;
@@ -114,7 +114,7 @@ void Reduced::choose_gathers(const Match &match, bool is_final) {
 ThinLens Reduced::lens(double focus, double scale) const {
     return {.radius = radius_ * scale,
             .focal_px = focal_px_,
-            .focus = focus > 0 ? depth_of_perceptive(depth_scale(), focus)
+            .focus = focus > 0 ? depth_at_disparity(depth_scale(), focus)
                                : std::numeric_limits<double>::infinity(),
             .pixel_aspect = ldi_.windows.pixel_aspect};
 }
@@ -133,7 +133,7 @@ void Reduced::find_usable() {
 void Reduced::find_depths() {
     for (std::size_t i = 0; i < pictures.usable.size(); ++i)
         if (const float z = front_depth(ldi_, pictures.plate.grid.pixel(i)); pictures.usable[i] && z > 0)
-            depths_.push_back(perceptive_depth(depth_scale(), double(z)));
+            depths_.push_back(disparity(depth_scale(), double(z)));
     if (depths_.empty()) throw UsageError("`region` contains no pixel that the LDI covers; give another");
     std::ranges::sort(depths_);
     const auto at = [&](double share) { return depths_[std::size_t(share * double(depths_.size() - 1))]; };
@@ -199,7 +199,7 @@ void set_values(MatchedLens &of, const Match &match, const Reduced &in, const Le
     if (match.request.fit == MatchFit::fstop) of.focus_deviation = {};
     if (match.request.fit == MatchFit::focus) of.radius_deviation = {};
     of.softness = std::sqrt(std::max(softness, 0.0)) * in.by();
-    of.focus_distance.value = focus > 0 ? depth_of_perceptive(in.depth_scale(), focus) : infinite;
+    of.focus_distance.value = focus > 0 ? depth_at_disparity(in.depth_scale(), focus) : infinite;
     of.lens_radius.value = in.radius() * scale;
 }
 

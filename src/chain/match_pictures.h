@@ -49,7 +49,7 @@ public:
 
 private:
     void choose_gathers(const Match &match, bool is_final);
-    ThinLens lens(double focus, double scale) const; // `focus`: its perceptive depth
+    ThinLens lens(double focus, double scale) const; // `focus`: its disparity
     void find_usable();
     void find_depths();
 
@@ -59,7 +59,7 @@ private:
     double radius_ = 0, focal_px_ = 0;
     PictureOptions quickly_, exactly_;
     Imath::Box2i box_;           // the compared pixels
-    std::vector<double> depths_; // perceptive, of its usable pixels, sorted
+    std::vector<double> depths_; // disparity, of its usable pixels, sorted
 };
 
 // What the request says about the lens, and the guess that has the blur of a lens found before.

@@ -12,15 +12,15 @@ namespace sparselens {
 
 namespace {
 
-// A pixel's samples, front to back, with their perceptive depths (descending).
+// A pixel's samples, front to back, with their disparities (descending).
 struct Pixel {
     const Ldi &ldi;
     std::size_t alpha;
     std::uint64_t begin, end;
     double scale;
-    double front(std::uint64_t i) const { return perceptive_depth(scale, ldi.z[i]); }
-    double back(std::uint64_t i) const { return perceptive_depth(scale, back_at(ldi, i)); }
-    double image(std::uint64_t i) const { return perceptive_depth(scale, ldi.optical_z(i)); }
+    double front(std::uint64_t i) const { return disparity(scale, ldi.z[i]); }
+    double back(std::uint64_t i) const { return disparity(scale, back_at(ldi, i)); }
+    double image(std::uint64_t i) const { return disparity(scale, ldi.optical_z(i)); }
 };
 
 // A run of samples of a pixel that grows at its back.

@@ -60,7 +60,7 @@ struct AveragedLayer {
 AveragedLayer averaged(const DenoisedLayer &view, double scale);
 
 // For each pixel of views[at], the share of the removed details that is kept: 0 to 1. `means` are those of all views.
-// `scale`: perceptive depth times z, pixels times scene units. Views show the same surface if their perceptive depths
+// `scale`: disparity times z, pixels times scene units. Views show the same surface if their disparities
 // differ by less than one_surface_px.
 Values kept_details(std::span<const DenoisedLayer> views, std::span<const AveragedLayer> means,
                     std::size_t at, double scale);

@@ -109,7 +109,7 @@ bool merges_by_rows(std::span<const Channel> channels) {
 Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options) {
     if (lens.radius == 0) return flattened(rows);
     if (!merges_layers(lens, options) || !merges_by_rows(rows.channels)) return rows;
-    return merge_layers(std::move(rows), perceptive_scale(lens.radius, lens.focal_px),
+    return merge_layers(std::move(rows), disparity_scale(lens.radius, lens.focal_px),
                         options.layer_tolerance);
 }
 
@@ -124,7 +124,7 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
         return gather_layers(ldi, lens, gathered, written, framed(options, ldi, lens, gathered), progress);
     return gather_merged(
-        merge_layers(ldi, perceptive_scale(lens.radius, lens.focal_px), options.layer_tolerance), lens,
+        merge_layers(ldi, disparity_scale(lens.radius, lens.focal_px), options.layer_tolerance), lens,
         gathered, written, options, progress);
 }
 
@@ -136,7 +136,7 @@ Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gather
         const PictureOptions by = framed(options, ldi, lens, gathered);
         return gather_layers(std::move(ldi), lens, gathered, written, by, progress);
     }
-    const double scale = perceptive_scale(lens.radius, lens.focal_px);
+    const double scale = disparity_scale(lens.radius, lens.focal_px);
     return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
                          written, options, progress);
 }

@@ -29,12 +29,12 @@ constexpr int rows_at_once = 16,
 // Extremes of the samples of some rows, or of all.
 struct Extremes {
     double coc = 0;                                                               // pixels, without its sign
-    double least_depth = std::numeric_limits<double>::infinity(), most_depth = 0; // perceptive, pixels
+    double least_depth = std::numeric_limits<double>::infinity(), most_depth = 0; // disparity, pixels
 
     void add(const ThinLens &lens, double z) {
         coc = std::max(coc, std::abs(circle_of_confusion(lens, z)));
-        least_depth = std::min(least_depth, perceptive_depth(lens, z));
-        most_depth = std::max(most_depth, perceptive_depth(lens, z));
+        least_depth = std::min(least_depth, disparity(lens, z));
+        most_depth = std::max(most_depth, disparity(lens, z));
     }
     void add(const Extremes &other) {
         coc = std::max(coc, other.coc);
@@ -239,7 +239,7 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
     if (lens.radius > 0) {
         Ldi border = border_of(rows, gathered);
         if (merges_layers(lens, options))
-            border = merge_layers(std::move(border), perceptive_scale(lens.radius, lens.focal_px),
+            border = merge_layers(std::move(border), disparity_scale(lens.radius, lens.focal_px),
                                   options.layer_tolerance);
         by.gather.beyond = {gathered, look_beyond(border, lens, options.gather.lens.looks, gathered)};
     }

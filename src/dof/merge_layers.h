@@ -1,6 +1,6 @@
 // Merges layers of a deep picture, before the gather, if no blur tells them apart.
 //
-// Consecutive samples of a pixel become one sample if their perceptive depths R F / z (pixels, which differ as their
+// Consecutive samples of a pixel become one sample if their disparities R F / z (pixels, which differ as their
 // CoCs do) and their positions all lie within a tolerance. The last of them may be opaque, the others have partial
 // coverage. They are composited by `over`, so that the flattened picture does not change. Depth (as 1 / z) and position
 // become means, weighted by what each sample shows. No CoC or coordinate changes by more than the tolerance, or by half

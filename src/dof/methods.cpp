@@ -31,7 +31,7 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
     };
     const auto gather_one = [&]<typename AnyLdi>(AnyLdi &&one) {
         if (tolerance == 0) return gather_beyond(std::forward<AnyLdi>(one), lens, window, options, gather);
-        const double scale = perceptive_scale(lens.radius, lens.focal_px);
+        const double scale = disparity_scale(lens.radius, lens.focal_px);
         return gather_beyond(merge_layers(std::forward<AnyLdi>(one), scale, tolerance), lens, window, options,
                              gather);
     };

@@ -1,6 +1,6 @@
 // Thresholds of the gathers, with units. Where a measurement exists, the comment quotes it. lab/sweep NAME measures
 // what other values cost. What a user chooses is an option (methods.h), with its default there; rules that a device
-// shares are in src/kernels. "Perceptive" means perceptive depth, in pixels.
+// shares are in src/kernels.
 #pragma once
 
 namespace sparselens {
@@ -51,7 +51,7 @@ struct GatherTuning {
     static constexpr float one_lamp = 1.1f;
     // Share of the disc's radius. A shadow that the lamps of a group share may be this far off.
     static constexpr double shared_shadow_of_radius = 0.02;
-    // Cells of perceptive depth. If a caster is this far in front of a lamp, the shadow of a cell is at most a
+    // Cells of disparity. If a caster is this far in front of a lamp, the shadow of a cell is at most a
     // sixteenth of the disc's radius wide.
     static constexpr float shadow_far_cells = 16;
     // The same in tiles without cells, at normal quality. Macro, five path-traced views: 64 loses .001 dB and takes 7.0
@@ -60,9 +60,9 @@ struct GatherTuning {
     // The sum of the squared CoCs of wide highlights, for each sample of the picture, from which on coarse casters are
     // made for tiles without cells: they cost as much as the shadows that they save.
     static constexpr double coarse_casters_pay = 4;
-    // Perceptive. Samples no farther apart share the edge of their footprints fully; from torn_px on they share none.
+    // Disparity. Samples no farther apart share the edge of their footprints fully; from torn_px on they share none.
     static constexpr float footprint_whole_px = 0.75f;
-    // Pixels of position, of CoC and of perceptive depth. Footprints are joined if their edges differ from a common
+    // Pixels of position, of CoC and of disparity. Footprints are joined if their edges differ from a common
     // straight edge by no more.
     static constexpr float joined_px = 1.0f / 16;
     // Share of one_surface_px. A neighbour no farther away in depth shows the surface fully.
@@ -75,7 +75,7 @@ struct GatherTuning {
     static constexpr float normal_cells = 8;
     // The same at final quality.
     static constexpr float final_cells = 12;
-    // Cells of perceptive depth. Samples of a cell that no lens point moves farther apart become one surface there.
+    // Cells of disparity. Samples of a cell that no lens point moves farther apart become one surface there.
     // Samples that stay apart would cover a part of their cell, which costs more time.
     static constexpr float one_cell = 0.5f;
 

@@ -1,4 +1,4 @@
-// Thresholds that decide whether two samples near each other show one surface, in pixels of perceptive depth.
+// Thresholds that decide whether two samples near each other show one surface, in pixels of disparity.
 #pragma once
 
 #include <cmath>

@@ -158,7 +158,7 @@ inline bool views_differ(PhotoBlock block) {
 }
 
 // Returns by how much another depth than the surface's would explain much of the difference, by linear regression, in
-// pixels of perceptive depth; 0 if it would not.
+// pixels of disparity; 0 if it would not.
 inline double explaining_motion(PhotoBlock block) {
     const double least_explained = 0.5; // share of the squared differences; noise alone gives a hundredth
     const double least_change = 1e-5;   // mean square for each pixel of depth: nothing else tells
@@ -167,7 +167,7 @@ inline double explaining_motion(PhotoBlock block) {
     return explained >= least_explained * block.difference2 ? abs(moved) : 0.0;
 }
 
-// The unit of the motions of images, in pixels of perceptive depth, if `across` pixels, across and down, become one
+// The unit of the motions of images, in pixels of disparity, if `across` pixels, across and down, become one
 // pixel of the picture. An image is worth finding if it moves by at least a quarter of the unit: between opposite
 // views, by a quarter of a pixel of the picture.
 inline double motion_unit(int across) { return across > 2 ? 0.5 * double(across) : 1.0; }
@@ -175,7 +175,7 @@ inline double motion_unit(int across) { return across > 2 ? 0.5 * double(across)
 // A verdict is a set of these.
 inline constexpr uint may_average = 1, differs_slightly = 2, differs_clearly = 4;
 inline uint photo_verdict(PhotoBlock block, double unit) { // motion_unit()
-    const double least_motion = 0.3 * unit;                // pixels of perceptive depth
+    const double least_motion = 0.3 * unit;                // pixels of disparity
     const double clear_motion = 0.5 * unit;                // the same; sharp edges seem to move by less
     const bool differ = views_differ(block), in_focus = block.coc <= focus_px * block.pixels;
     const double moved = explaining_motion(block);

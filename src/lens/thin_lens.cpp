@@ -7,14 +7,14 @@
 
 namespace sparselens {
 
-double perceptive_depth(const ThinLens &lens, double z) { return lens.radius * lens.focal_px / z; }
+double disparity(const ThinLens &lens, double z) { return lens.radius * lens.focal_px / z; }
 
 double circle_of_confusion(const ThinLens &lens, double z) {
     return kernels::coc_of(lens.radius * lens.focal_px, lens.focus, std::isinf(lens.focus), z, std::isinf(z));
 }
 
 Imath::V2d seen_from_centre(const ThinLens &lens, const Imath::V2d &q, double z, const Imath::V2d &u) {
-    const double parallax = perceptive_depth(lens, z);
+    const double parallax = disparity(lens, z);
     return {q.x + parallax * u.x, q.y - parallax * u.y * lens.pixel_aspect};
 }
 

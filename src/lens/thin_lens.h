@@ -20,10 +20,10 @@ struct ThinLens {
     double pixel_aspect = 1; // width over height of a pixel; offsets in y are multiplied by it
 };
 
-// Perceptive depth, the disparity R F / z, in pixels: 0 at infinity. The difference of two perceptive depths is the
+// The disparity R F / z, in pixels: 0 at infinity. The difference of two disparities is the
 // difference of their circles of confusion (CoC) at any focus distance, so an LDI that is clustered by it can still
 // be refocused.
-double perceptive_depth(const ThinLens &lens, double z);
+double disparity(const ThinLens &lens, double z);
 
 // The signed CoC radius in pixels, negative in front of the focus. Never NaN for z and focus in (0, inf].
 double circle_of_confusion(const ThinLens &lens, double z);
@@ -45,17 +45,17 @@ double radius_of(double fstop, double focal_mm, double metres_per_unit = 1);
 // The inverse: the f-number, infinity for a radius of 0.
 double fstop_of(double radius, double focal_mm, double metres_per_unit = 1);
 
-// Perceptive depth R F / z, in pixels, from the lens's scale R F (pixels times scene units) alone, for code that
-// compares depths and needs no focus. See also perceptive_depth(lens, z).
-inline double perceptive_scale(double radius, double focal_px) { return radius * focal_px; }
+// Disparity R F / z, in pixels, from the lens's scale R F (pixels times scene units) alone, for code that
+// compares depths and needs no focus. See also disparity(lens, z).
+inline double disparity_scale(double radius, double focal_px) { return radius * focal_px; }
 
-inline double perceptive_depth(double scale, double z) { return scale / z; }
+inline double disparity(double scale, double z) { return scale / z; }
 
-// The inverse: the depth that has this perceptive depth.
-inline double depth_of_perceptive(double scale, double perceptive) { return scale / perceptive; }
+// The inverse: the depth that has this disparity.
+inline double depth_at_disparity(double scale, double disparity) { return scale / disparity; }
 
-// The difference in 1 / z of two depths whose perceptive depths differ by `perceptive`.
-inline double inverse_depth_step(double scale, double perceptive) { return perceptive / scale; }
+// The difference in 1 / z of two depths whose disparities differ by `disparity`.
+inline double inverse_depth_step(double scale, double disparity) { return disparity / scale; }
 
 // The depths between which a lens is sharp: no circle of confusion (CoC) is larger than a limit that still counts as
 // sharp.
@@ -70,7 +70,7 @@ struct SharpRange {
 
 // `sharp`: the largest CoC radius that is sharp, pixels, above 0.
 inline SharpRange sharp_range(const ThinLens &lens, double sharp) {
-    const double scale = perceptive_scale(lens.radius, lens.focal_px), hyperfocal = scale / sharp;
+    const double scale = disparity_scale(lens.radius, lens.focal_px), hyperfocal = scale / sharp;
     if (std::isinf(lens.focus)) return {hyperfocal, lens.focus, hyperfocal};
     const double near = hyperfocal > 0 ? lens.focus / (1 + lens.focus / hyperfocal) : 0;
     const double far = lens.focus < hyperfocal ? lens.focus / (1 - lens.focus / hyperfocal)

@@ -1,6 +1,6 @@
 // Finds the lens whose gathered picture is blurred as a plate is.
 //
-// The CoC is a linear function of perceptive depth P (lens/thin_lens.h): c(P) = coc - scale (P - middle). The
+// The CoC is a linear function of disparity P (lens/thin_lens.h): c(P) = coc - scale (P - middle). The
 // search compares gathered pictures over a grid of both numbers, then goes uphill from the best ones.
 #pragma once
 
@@ -24,18 +24,18 @@ struct Comparison {
     Rgb colours;                          // of the plate, tone-mapped
     Grey plate;                           // their brightness
     std::vector<std::uint8_t> usable;     // [pixel]
-    double near = 0, middle = 0, far = 0; // perceptive depths for scale 1, pixels
+    double near = 0, middle = 0, far = 0; // disparities for scale 1, pixels
     // The gathered picture, scene-linear; `exactly`, or quickly with more noise.
     std::function<Rgb(double coc, double scale, bool exactly)> gather;
 };
 
 // Values that are known beforehand.
 struct KnownLens {
-    std::optional<double> focus = {}; // its perceptive depth for scale 1, pixels
+    std::optional<double> focus = {}; // its disparity for scale 1, pixels
     std::optional<double> scale = {};
 };
 
-// Half the range of perceptive depths, at least half a pixel.
+// Half the range of disparities, at least half a pixel.
 double half_range(const Comparison &pictures);
 
 // Keeps a guess within what lenses do: the focus is not beyond infinity, and where it is known, it stays.
@@ -55,7 +55,7 @@ struct LensAxis {
     double coc = 0, ends = 0, variance = 0;
 };
 
-// The longer one first. `half_range`: of the perceptive depths.
+// The longer one first. `half_range`: of the disparities.
 std::array<LensAxis, 2> axes_of(const LensCovariance &covariance, double half_range);
 
 struct LensFit {

@@ -20,7 +20,7 @@ public:
         : data_(windows.data), grid_(windows.width(), windows.height()),
           shift_(-u.x, u.y * lens.pixel_aspect), depth_(z.size()) {
         std::transform(z.begin(), z.end(), depth_.begin(),
-                       [&](float value) { return perceptive_depth(lens, value); });
+                       [&](float value) { return disparity(lens, value); });
     }
 
     MovedDepth run() const {
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    // The largest perceptive depth along the border near here: something as near may stand beyond the border and come
+    // The largest disparity along the border near here: something as near may stand beyond the border and come
     // into view.
     double nearest_along(int column, int row, int dx, int dy) const {
         double nearest = 0;
@@ -98,8 +98,8 @@ private:
 
     Imath::Box2i data_;
     Grid grid_;                 // the window, from its corner
-    Imath::V2d shift_;          // for perceptive depth 1, pixels, y down
-    std::vector<double> depth_; // perceptive depths
+    Imath::V2d shift_;          // for disparity 1, pixels, y down
+    std::vector<double> depth_; // disparities
 };
 
 // Sets all values within `margin` of a set value in a line of `count` values, `stride` apart.
@@ -179,7 +179,7 @@ PixelMask grown(const PixelMask &mask, int margin) {
 
 double share_at_edges(const Windows &windows, std::span<const float> z, const ThinLens &lens) {
     const Grid grid(windows.width(), windows.height());
-    const auto depth = [&](int x, int y) { return perceptive_depth(lens, double(z[grid.index(x, y)])); };
+    const auto depth = [&](int x, int y) { return disparity(lens, double(z[grid.index(x, y)])); };
     std::vector<std::size_t> edges(std::size_t(grid.height())); // by row
     parallel_for(edges.size(), [&](std::size_t row) {
         const int y = int(row);

@@ -30,7 +30,7 @@ struct PixelMask {
     std::size_t count() const;
 };
 
-// The centre view as seen from the rim view: for each pixel, the perceptive depth R F / z of the nearest pixel that
+// The centre view as seen from the rim view: for each pixel, the disparity R F / z of the nearest pixel that
 // lands in it, or `nothing`. The data window is the centre view's.
 struct MovedDepth {
     static constexpr float nothing = -1;

@@ -41,7 +41,7 @@ struct LampPathTuning {
 // A part of a lamp, for example one pixel of it.
 struct LampPart {
     Imath::V2f at;
-    float depth; // perceptive, pixels: larger is nearer
+    float depth; // disparity, pixels: larger is nearer
     std::array<float, 3> light;
 
     bool operator==(const LampPart &) const = default;

@@ -115,7 +115,7 @@ double resolve_focal_px(const Camera &camera, const Windows &windows) {
     return *focal_px;
 }
 
-std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required) {
+std::optional<double> disparity_scale(const Camera &camera, const Windows &windows, bool required) {
     const bool known = lens_radius_of(camera) && focal_length_px(camera, windows.display_width());
     if (!known && !required) return {};
     const double radius = resolve_radius(camera);

@@ -41,9 +41,9 @@ double resolve_radius(const Camera &camera);
 // The focal length in pixels; throws UsageError if it is unknown. `windows` gives the display width.
 double resolve_focal_px(const Camera &camera, const Windows &windows);
 
-// R F, the scale of perceptive depth, in pixels times scene units; 0 for a lens of radius 0. If a value that it needs
+// R F, the scale of disparity, in pixels times scene units; 0 for a lens of radius 0. If a value that it needs
 // is unknown, it throws UsageError if `required`, and otherwise returns nothing.
-std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required);
+std::optional<double> disparity_scale(const Camera &camera, const Windows &windows, bool required);
 
 // The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
 // value. `windows` gives the display width and the pixel aspect.

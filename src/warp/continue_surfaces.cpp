@@ -35,7 +35,7 @@ struct Run {
 struct Hidden {
     std::size_t pixel;
     int distance; // from the end of the surface, pixels
-    double depth; // perceptive
+    double depth; // disparity
     std::array<std::uint64_t, 2> shown;
     auto order() const { return std::tuple(pixel, distance, depth, shown); }
 };
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    double depth_of(std::uint64_t i) const { return perceptive_depth(scale_, double(ldi_.z[i])); }
+    double depth_of(std::uint64_t i) const { return disparity(scale_, double(ldi_.z[i])); }
     bool covers(std::uint64_t i) const { return alpha_at(ldi_, alpha_, i) >= half_covered; }
     bool is_surface(std::uint64_t i) const {
         return covers(i) && std::isfinite(ldi_.z[i]) && ldi_.optical_z(i) == double(ldi_.z[i]) &&
@@ -169,7 +169,7 @@ std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, doubl
 // A sample that is added.
 struct Added {
     std::size_t pixel;
-    double depth;            // perceptive
+    double depth;            // disparity
     std::vector<Term> terms; // their coefficients are weights
     auto order() const { return std::pair(pixel, -depth); }
 };
@@ -195,7 +195,7 @@ void add(std::vector<Added> all, double scale, Ldi &ldi) {
     std::vector<SamplePlace> places;
     const std::size_t alpha = ldi.alpha();
     for (Added &one : all) {
-        const float z = float(depth_of_perceptive(scale, one.depth));
+        const float z = float(depth_at_disparity(scale, one.depth));
         double weights = 0;
         for (const Term &term : one.terms) weights += term.coefficient;
         for (Term &term : one.terms) term.coefficient /= weights * double(alpha_at(ldi, alpha, term.index));

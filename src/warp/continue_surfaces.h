@@ -27,7 +27,7 @@ namespace sparselens {
 // - for as many pixels as views saw of it before its end,
 // - while no view saw through it, in this pixel or in those around it,
 // - while something lies farther: where nothing does, fillers (dof/lens/fillers.h) do as well,
-// - while what hides it is nearer by more than (n - 1) / sqrt(2) pixels of perceptive depth: no lens point looks farther
+// - while what hides it is nearer by more than (n - 1) / sqrt(2) pixels of disparity: no lens point looks farther
 //   behind an edge, which may run at 45 degrees,
 // - within the picture of the centre view.
 // Surfaces that continue into a pixel from several sides at about the same depth become one sample: their mean, each

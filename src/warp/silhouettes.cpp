@@ -221,7 +221,7 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
 void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const {
     float weight = 1;
     const auto emit = [&](double depth, std::span<const Term> terms) {
-        append(out, view_, float(depth_of_perceptive(scale_, depth)), weight, terms);
+        append(out, view_, float(depth_at_disparity(scale_, depth)), weight, terms);
         weight = WarpTuning::estimate_weight; // of the sample behind, which comes next
     };
     const double share = mixture.share;

@@ -20,7 +20,7 @@
 namespace sparselens {
 
 // `view` has at most one sample per pixel. `scale` is R F, pixels times scene units. `jump`, > 0: two surfaces differ
-// by at least this much in perceptive depth, pixels. It must be the same as for averaging: otherwise a mixture of two
+// by at least this much in disparity, pixels. It must be the same as for averaging: otherwise a mixture of two
 // surfaces that are averaged separately would be left whole to one of them. `crossed_lamps`: pixels, in ascending
 // order, that keep their light (lamps/lamp_depths.h). `others`: the views that may show what is behind strands.
 void separate_silhouettes(ViewSamples &view, double scale, double jump,

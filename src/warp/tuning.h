@@ -1,6 +1,6 @@
 // Thresholds of the warp, with units. Where a measurement exists, the comment quotes it. lab/sweep NAME measures what
 // other values cost. Values that a user chooses are options with defaults (warp.h); rules that a device shares are in
-// src/kernels. "Perceptive" means pixels of perceptive depth.
+// src/kernels.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ struct WarpTuning {
     // Pixels around the one of a view that must see no farther (continue_surfaces.h).
     static constexpr int sight_margin = 1;
 
-    // Solids (continue_surfaces.h). Perceptive: thickness of a surface that no view sees through. With 2, pinecone and
+    // Solids (continue_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2, pinecone and
     // macro have .7 and .1 dB less inside their masks.
     static constexpr double solid_px = 4;
-    // Perceptive: a view counts as seeing something nearer if it is nearer by at least this.
+    // Pixels of disparity: a view counts as seeing something nearer if it is nearer by at least this.
     static constexpr double solid_nearer_px = 0.5;
-    // Perceptive: a gap between surfaces closer than this never shows the background.
+    // Pixels of disparity: a gap between surfaces closer than this never shows the background.
     static constexpr double solid_relief_px = 1;
 
     // Silhouettes (silhouettes.h). Radius of the pixels that tell the colour of a surface.
@@ -42,11 +42,11 @@ struct WarpTuning {
     static constexpr int strand_reach = 2;
     // Jumps in depth among 20 pairs of pixels. Strands that cover half give about 10.
     static constexpr int strand_jumps = 5;
-    // Perceptive: distance between strands and the surface behind them.
+    // Pixels of disparity: distance between strands and the surface behind them.
     static constexpr double strand_apart_px = 2;
     // Pixels: reach of a lamp of a few pixels that strands cross everywhere.
     static constexpr int strand_light_reach = 4;
-    // Perceptive: anything less is sky, which has no lamps.
+    // Pixels of disparity: anything less is sky, which has no lamps.
     static constexpr double least_lamp_px = 0.1;
     // Share of the strands around that are dimmer than the colour estimated for them.
     static constexpr double dim_strand = 0.3;
@@ -88,9 +88,9 @@ struct WarpTuning {
     // Largest share of the lamp's light that may be changed.
     static constexpr double lamp_largest_change = 0.5;
 
-    // Depth of images in mirrors and glass (images/image_sweep.h). Perceptive: step between depths that are tried.
+    // Depth of images in mirrors and glass (images/image_sweep.h). Pixels of disparity: step between depths that are tried.
     static constexpr double image_step_px = 0.5;
-    // Perceptive: how far behind the camera (below 0) the search goes.
+    // Pixels of disparity: how far behind the camera (below 0) the search goes.
     static constexpr double image_behind_camera_px = 6;
     // Largest number of depths that are tried; for a very near surface the steps become larger.
     static constexpr std::size_t image_most_steps = 320;
@@ -108,7 +108,7 @@ struct WarpTuning {
     static constexpr int image_guess_reach = 2;
     // Step size of the first pass, in steps: a valley is wider.
     static constexpr std::size_t image_coarse_steps = 2;
-    // Perceptive: least distance of an image from the surface that is worth it.
+    // Pixels of disparity: least distance of an image from the surface that is worth it.
     static constexpr float image_least_px = 0.25f;
     // Share of the views' difference at the surface: a depth that explains them leaves less.
     static constexpr float image_left = 0.5f;
@@ -120,7 +120,7 @@ struct WarpTuning {
     static constexpr float image_rival = 1.4f;
     // Steps on either side that refine a depth, ...
     static constexpr int image_fine_steps = 3;
-    // ... and perceptive, how far apart they are.
+    // ... and, in disparity, how far apart they are.
     static constexpr double image_fine_px = 0.25;
     // Share of a patch that both views must show to be compared.
     static constexpr float image_least_patch = 0.4f;
@@ -134,7 +134,7 @@ struct WarpTuning {
     static constexpr int image_plane_reach = 6;
     // Share of the pixels that found a depth: this many are as near to it as the next constant says.
     static constexpr double image_agreement = 0.4;
-    // Perceptive: depths no farther apart than this belong to one image.
+    // Pixels of disparity: depths no farther apart than this belong to one image.
     static constexpr float image_one_px = 0.8f;
     // Pixels from which a depth may be continued: Neighbours::reach at most, ...
     static constexpr int image_continued_reach = 8;

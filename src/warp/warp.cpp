@@ -42,7 +42,7 @@ private:
     bool averages() const { return options_.merge == Merge::average; }
 
     WarpOptions options_;
-    double scale_;                    // R F: perceptive depth is scale / z
+    double scale_;                    // R F: disparity is scale / z
     double tolerance_;                // of 1 / z, within one surface
     std::optional<ThinLens> focused_; // if the focus is known
     ReprojectedViews views_;
@@ -52,7 +52,7 @@ private:
 };
 
 Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
-    : options_(options), scale_(perceptive_scale(options.radius, options.focal_px)),
+    : options_(options), scale_(disparity_scale(options.radius, options.focal_px)),
       tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
                             : std::numeric_limits<double>::infinity()),
       views_(std::move(views), options.focal_px, scale_,

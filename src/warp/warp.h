@@ -2,7 +2,7 @@
 //
 // A sample is a pixel of some view, or an average of pixels of one surface. Samples seen past it may fill it up
 // (coverage.h), and surfaces continue a little behind nearer ones (continue_surfaces.h). Two samples belong to the
-// same surface if their perceptive depths R F / z differ by less than `surface_px` pixels.
+// same surface if their disparities R F / z differ by less than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"
@@ -28,7 +28,7 @@ enum class Merge {
 
 struct WarpOptions {
     double focal_px = 1; // focal length, pixels
-    double radius = 0;   // the aperture radius that perceptive depth refers to, scene units
+    double radius = 0;   // the aperture radius that disparity refers to, scene units
     Merge merge = Merge::average;
     double surface_px = one_surface_px;
     // With Merge::average: pixels that mix two surfaces become two samples (silhouettes.h).
@@ -44,7 +44,7 @@ struct WarpOptions {
     WarpDevice *device = nullptr; // if given, works on the rows that it can
 };
 
-// Takes the lens, and `across`, from the camera of the centre view, views[0]. Perceptive depth refers to the lens
+// Takes the lens, and `across`, from the camera of the centre view, views[0]. Disparity refers to the lens
 // radius if that is known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError
 // if the focal length is unknown.
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);

@@ -24,7 +24,7 @@ TestPixel clustered(const TestPixel &pixel, const ClusterOptions &options) {
     return samples_of(clustered(ldi_of({pixel}), options).ldi, 0);
 }
 
-// Points at these perceptive depths (for a scale of 1), front to back.
+// Points at these disparities (for a scale of 1), front to back.
 TestPixel at_depths(std::initializer_list<double> depths, const TestSample &like = {.z = 1}) {
     TestPixel pixel;
     for (const double depth : depths) {
@@ -121,7 +121,7 @@ TEST(Cluster, AVolumeAmongPointsMakesAVolume) {
     const TestPixel p = clustered(mixed, {.layers = 2});
     ASSERT_EQ(p.size(), 2u);
     EXPECT_EQ(p[0].z, 1);
-    EXPECT_EQ(p[0].z_back, 1); // the sample farthest from the rest in perceptive depth stays alone
+    EXPECT_EQ(p[0].z_back, 1); // the sample farthest from the rest in disparity stays alone
     EXPECT_EQ(p[1].z, 2);
     EXPECT_EQ(p[1].z_back, 500);
     const TestPixel points = clustered(
@@ -265,7 +265,7 @@ TEST(Cluster, ALensOfNoRadiusNeedsOneLayer) {
         EXPECT_LE(samples_of(out.ldi, pixel).size(), 1u);
 }
 
-// One mirror at perceptive depth 1, with images at these perceptive depths.
+// One mirror at disparity 1, with images at these disparities.
 Ldi mirror_of(std::initializer_list<double> images, double spacing) {
     return make_ldi(windows_of_size(1, 1), {{"R"}, {"A"}}, [&](int, int) {
         std::vector<Sample> samples;

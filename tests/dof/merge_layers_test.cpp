@@ -19,7 +19,7 @@
 namespace sparselens {
 namespace {
 
-// A point at this perceptive depth (for a scale of 1).
+// A point at this disparity (for a scale of 1).
 TestSample at(double depth, float alpha, float colour = 0.25f) {
     return {.z = float(1 / depth), .colour = colour, .alpha = alpha};
 }

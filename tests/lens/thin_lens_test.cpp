@@ -22,7 +22,7 @@ TEST(ThinLens, InfinityIsALimitNotAnError) {
     const ThinLens far{.radius = 0.06, .focal_px = 640, .focus = inf};
     EXPECT_DOUBLE_EQ(circle_of_confusion(far, 4), -9.6);
     EXPECT_DOUBLE_EQ(circle_of_confusion(far, inf), 0);
-    EXPECT_DOUBLE_EQ(perceptive_depth(lens, inf), 0);
+    EXPECT_DOUBLE_EQ(disparity(lens, inf), 0);
 }
 
 TEST(ThinLens, OneUlpFromFocusKeepsItsSignAndSize) {
@@ -35,11 +35,11 @@ TEST(ThinLens, OneUlpFromFocusKeepsItsSignAndSize) {
     }
 }
 
-TEST(ThinLens, PerceptiveDepthDifferenceIsRefocusable) {
+TEST(ThinLens, DisparityDifferenceIsRefocusable) {
     for (const double d : {0.5, 5.0, inf}) {
         const ThinLens focused{.radius = 0.06, .focal_px = 640, .focus = d};
         const double by_coc = circle_of_confusion(focused, 9) - circle_of_confusion(focused, 3);
-        EXPECT_NEAR(by_coc, perceptive_depth(focused, 3) - perceptive_depth(focused, 9), 1e-11);
+        EXPECT_NEAR(by_coc, disparity(focused, 3) - disparity(focused, 9), 1e-11);
     }
 }
 

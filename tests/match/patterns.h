@@ -36,7 +36,7 @@ inline Rgb waves(int width, int height) {
     return waves(width, height, [](double, double) { return 1.0; });
 }
 
-// A scene whose perceptive depth falls from 12 at the left to 2 at the right. Its lens blurs by Gaussians, so the blur
+// A scene whose disparity falls from 12 at the left to 2 at the right. Its lens blurs by Gaussians, so the blur
 // of a wave is known in closed form.
 inline double depth_at(double x, int width) { return 12 - 10 * x / width; }
 inline Rgb blurred_waves(int width, int height, double coc, double scale) {

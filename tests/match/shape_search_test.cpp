@@ -27,7 +27,7 @@ bool passes(const ApertureShape &shape, double x, double y) {
 }
 
 struct Lamp {
-    double x, y, depth; // perceptive
+    double x, y, depth; // disparity
 };
 constexpr std::array all_lamps{Lamp{19.3, 18.7, 4}, Lamp{56.1, 22.2, 2}, Lamp{92.6, 19.5, 3},
                                Lamp{20.8, 58.4, 3}, Lamp{57.2, 61.9, 4}, Lamp{91, 60, 2}};

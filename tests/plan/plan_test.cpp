@@ -78,7 +78,7 @@ TEST(Plan, ManyEdgesAskForFineViews) {
     EXPECT_EQ(many.supersample, 2);
     EXPECT_NEAR(few.edges, 4.0 / 108, 2e-3);
     EXPECT_EQ(few.supersample, 1);
-    EXPECT_EQ(plan_of(bars(72, 5.1f)).edges, 0); // perceptive depths of 1.96 and 1
+    EXPECT_EQ(plan_of(bars(72, 5.1f)).edges, 0); // disparities of 1.96 and 1
     EXPECT_EQ(plan_of(bars(72, 2), {.across = 2}).supersample, 1);
 }
 
@@ -93,8 +93,7 @@ TEST(Plan, NoiseAsksForWholeViews) {
 // Noise where the picture is in focus, none where it is blurred: the noisy pixels are asked for where each view shows
 // them.
 TEST(Plan, NoiseIsAskedForWhereItIs) {
-    const ThinLens wide{
-        .radius = 0.4, .focal_px = 100, .focus = 5}; // CoC -4 px at z = 3.33, perceptive depth 12
+    const ThinLens wide{.radius = 0.4, .focal_px = 100, .focus = 5}; // CoC -4 px at z = 3.33, disparity 12
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0.5, 0.02);
     const View view = make_view(windows_of_size(160, 60), {0, 0}, [&](int x, int) {
@@ -104,7 +103,7 @@ TEST(Plan, NoiseIsAskedForWhereItIs) {
     const Plan plan = plan_of(view, {.views = 2}, wide);
     EXPECT_FALSE(plan.full_views);
     ASSERT_EQ(plan.views.size(), 2u);
-    for (const PlannedView &planned : plan.views) // their perceptive depth is 8
+    for (const PlannedView &planned : plan.views) // their disparity is 8
         for (int x = 12; x < 60; ++x) EXPECT_TRUE(planned.mask.at(x, 30)) << x;
     EXPECT_NEAR(double(plan.noisy), 80 * 60, 8 * 60);
     EXPECT_FALSE(plan.views[0].mask.at(120, 30));

@@ -132,7 +132,7 @@ if len(said) != 3 or "37.5 pixels" not in said[0] or "blur" not in said[1] or sa
     sys.exit(f"Once: {said}")
 
 # Where --supersample auto takes 2: the thresholds are those of ldi-plan, and so is the share of the pixels at edges.
-# Posts of 5 pixels at the perceptive depth 4, one in 72 pixels, before a wall at 2: 4 columns of 72 are at edges.
+# Posts of 5 pixels at the disparity 4, one in 72 pixels, before a wall at 2: 4 columns of 72 are at edges.
 for name, path, value in ("many_edges", "src/plan/tuning.h", sub_pixels.MANY_EDGES), (
         "torn_px", "src/kernels/surface.h", sub_pixels.TORN):
     with open(path) as file:

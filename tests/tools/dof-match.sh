@@ -20,7 +20,7 @@ plate() { # plate NAME FOCUS RADIUS
 value() { grep -A1 "\"$1\": {" stdout | grep -o '"value": [0-9.]*' | cut -d' ' -f2; }
 holds() { awk "BEGIN { exit !($(value "$1") >= $2 && $(value "$1") <= $3) }" || fail "$1 is $(value "$1"), not $2 to $3"; }
 
-# R F is 25.9 pixels: at 3 units, the perceptive depth is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
+# R F is 25.9 pixels: at 3 units, the disparity is 8.5, and half a pixel of CoC is 0.3 units. 0.15 stops are 5 %.
 plate plate.exr 3 0.24
 exits 0 "$match" ldi.exr plate.exr --json -o keys.json --show fit.png --stats stats.json
 holds focus_distance 2.8 3.25

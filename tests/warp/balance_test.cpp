@@ -71,7 +71,7 @@ TEST(Balance, NoOtherWeightsHaveLessError) {
     }
 }
 
-// A wall at a perceptive depth that puts the rim views' pixels 0.3 px off, one to the right and one to the left. In the
+// A wall at a disparity that puts the rim views' pixels 0.3 px off, one to the right and one to the left. In the
 // second view the left half was not rendered: there the mean of the others would be 0.11 px off.
 TEST(Balance, AViewRenderedInPartMovesNothing) {
     TwoPlanes wall;

@@ -19,7 +19,7 @@ const Windows windows = windows_of_size(96, 96);
 constexpr int row = 48;
 
 // The plate covers what is left of `plate_ends`, the board lies between `board_begins` and `board_ends`: columns of the
-// centre view. Both have `rows`; from above and below, views see the wall behind them. Perceptive depths; the board's
+// centre view. Both have `rows`; from above and below, views see the wall behind them. Disparities; the board's
 // may change from left to right.
 struct Boards {
     double plate_ends = 48, board_begins = 20, board_ends = 80, rows = 46;

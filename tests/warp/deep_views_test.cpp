@@ -80,7 +80,7 @@ TEST(DeepViews, OfOneSampleAPixelAreFlatViews) {
     }
 }
 
-// Two cards of half coverage before a wall. Their perceptive depths are 3, 2 and 1 pixels, so that samples fall on
+// Two cards of half coverage before a wall. Their disparities are 3, 2 and 1 pixels, so that samples fall on
 // pixel centres.
 std::vector<Sample> two_cards(float second = 0.5f, float green = 1) {
     return {{.z = 2, .values = {0.5f, 0, 0, 0.5f}},

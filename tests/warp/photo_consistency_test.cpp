@@ -70,7 +70,7 @@ TEST(PhotoConsistency, SharpEdgesOfTextureDoNotMove) {
 }
 
 TEST(PhotoConsistency, ImagesThatMoveByAPixelDiffer) {
-    const auto image = [](const Imath::V2d &camera) { // one pixel of perceptive depth off
+    const auto image = [](const Imath::V2d &camera) { // one pixel of disparity off
         return [camera](double x, double) {
             return float(0.5 + 0.4 * std::sin(0.2 * x + 0.2 * camera.x / radius));
         };

@@ -18,10 +18,10 @@ const Windows windows = windows_of_size(96, 96);
 // A plate; a board that begins `gap` pixels beyond the plate's edge and continues behind it; and a bright wall. Edges
 // are diagonal; positions are the centre's.
 struct Plates {
-    double plate = 40, board = 36.8, wall = 10; // perceptive depths
+    double plate = 40, board = 36.8, wall = 10; // disparities
     double gap = -20, width = 24;               // of the board; pixels across both edges
 
-    // The perceptive depth that lens point u sees at a pixel.
+    // The disparity that lens point u sees at a pixel.
     double seen(const Imath::V2d &pixel, const Imath::V2d &u) const {
         const auto across = [&](double depth) { // distance from the plate's edge, to the lower right
             const Imath::V2d at = pixel + depth * Imath::V2d(u.x, -u.y);

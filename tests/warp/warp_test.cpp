@@ -119,7 +119,7 @@ TEST(Warp, ViewsThatAreTakenGiveTheSameLdi) {
 }
 
 struct Witness {
-    double depth;     // perceptive
+    double depth;     // disparity
     float colour;     // not premultiplied
     Imath::V2d place; // within its pixel, 0..1
 };
@@ -262,7 +262,7 @@ TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
         const float red = x < 8 ? 1 : x == 8 ? 0.4f : 0;
         return ViewPixel{.z = red >= 0.5f ? 2.0f : 10.0f, .r = 1000 * red, .g = 1 - red};
     });
-    for (const double apart : {0.49, 0.51, 0.99, 1.01, 4.0}) { // pixels of perceptive depth
+    for (const double apart : {0.49, 0.51, 0.99, 1.01, 4.0}) { // pixels of disparity
         const Ldi ldi = warped({view}, {.focal_px = 100, .radius = apart / (100 * (1 / 2.0 - 1 / 10.0))});
         const std::uint64_t front = ldi.pixel(4 * 16 + 8).front();
         ASSERT_EQ(ldi.pixel(4 * 16 + 8).size(), apart > 0.5 ? 2u : 1u) << apart;

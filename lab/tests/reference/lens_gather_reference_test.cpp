@@ -23,7 +23,7 @@ struct Case {
     double glowing = 0;  // share of samples with light but no coverage
     LensLooks looks = {};
     double images = 0; // share of samples with an image at another depth
-    double solids = 0; // share of solid samples, up to two pixels of perceptive depth
+    double solids = 0; // share of solid samples, up to two pixels of disparity
 };
 
 // Weights that differ for R, G and B.

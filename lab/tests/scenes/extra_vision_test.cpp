@@ -15,7 +15,7 @@ namespace {
 
 using namespace lab;
 
-// Whether the view shows a surface within a pixel of perceptive depth of the sample's, within a pixel of where it would
+// Whether the view shows a surface within a pixel of disparity of the sample's, within a pixel of where it would
 // see the sample. `p`: the sample's position in the centre view.
 bool sees(const View &view, const ThinLens &lens, const Imath::V2d &p, double z) {
     const double shift = lens.focal_px / z;
@@ -25,7 +25,7 @@ bool sees(const View &view, const ThinLens &lens, const Imath::V2d &p, double z)
     for (int j = std::max(y - 1, data.min.y); j <= std::min(y + 1, data.max.y); ++j)
         for (int i = std::max(x - 1, data.min.x); i <= std::min(x + 1, data.max.x); ++i) {
             const double seen = double(view.z[std::size_t(j * view.image.windows.width() + i)]);
-            if (std::abs(perceptive_depth(lens, seen) - perceptive_depth(lens, z)) <= 1) return true;
+            if (std::abs(disparity(lens, seen) - disparity(lens, z)) <= 1) return true;
         }
     return false;
 }

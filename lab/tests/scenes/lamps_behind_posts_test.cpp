@@ -20,7 +20,7 @@ using namespace lab;
 
 constexpr int width = 320, height = 180, frames = 8;
 constexpr double full = 0.12, focus = 5; // scene units: the radius of the views' lens
-constexpr double posts_px = 16;          // perceptive depth
+constexpr double posts_px = 16;          // disparity
 constexpr int first_post = -150, post_step = 23;
 
 // The share of the unit disc on the left of a line.
@@ -29,7 +29,7 @@ double left_of(double x) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// A lamp one pixel wide and high in all five views, because its position and perceptive depth are whole numbers.
+// A lamp one pixel wide and high in all five views, because its position and disparity are whole numbers.
 struct Lamp {
     Imath::V2i pixel; // from the middle of the picture
     int near_px;

@@ -87,7 +87,7 @@ TEST(RenderStrata, SeeWhatIsHidden) {
 }
 
 // Intervals are equal in 1 / z from the nearest surface, at 4: 2 strata part at 8.
-TEST(RenderStrata, PartAtEqualPerceptiveDepth) {
+TEST(RenderStrata, PartAtEqualDisparity) {
     const RenderSettings settings = settings_of_size(8, 4);
     for (const double z : {7.9, 8.1}) {
         Scene scene;

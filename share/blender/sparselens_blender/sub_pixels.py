@@ -12,7 +12,7 @@ from .shots import shot_of
 
 AUTO = "auto"  # supersample and overscan: as the frame needs it
 MANY_EDGES = 0.05  # share of the pixels; many_edges of src/plan/tuning.h
-TORN = 1  # pixels of perceptive depth; torn_px of src/kernels/surface.h
+TORN = 1  # pixels of disparity; torn_px of src/kernels/surface.h
 
 
 def supersample_in(settings):
@@ -26,7 +26,7 @@ def share_at_edges(rows, shot):
     scale = shot.lens_radius * shot.focal_pixels
     count, above, marked_above = 0, None, []
     for row in rows:
-        depths = [scale / z if z > 0 else 0 for z in row]  # perceptive
+        depths = [scale / z if z > 0 else 0 for z in row]  # disparity
         jumps = [abs(a - b) > TORN for a, b in zip(depths, depths[1:])]
         marked = list(map(or_, [False] + jumps, jumps + [False]))
         if above:

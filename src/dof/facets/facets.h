@@ -1,6 +1,6 @@
 // Facets: triangles that close surfaces so steep that their samples part as seen from some points of the lens.
 //
-// Two opaque samples of adjacent pixels whose perceptive depths differ by D move apart by D pixels towards the rim of
+// Two opaque samples of adjacent pixels whose disparities differ by D move apart by D pixels towards the rim of
 // the lens. What lies behind then shows between them, unless the surface is known to continue from one to the other. It
 // does (the samples are linked) if |D| is less than steep_px, or if D is one of three steps of depth that follow each
 // other in a row or a column and have the same sign. D may be the first, the second or the third of them. S is the
@@ -48,14 +48,14 @@ FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest);
 struct LinkedSample {
     static constexpr std::uint32_t none = ~0u;
     std::uint32_t sample = none; // index into the LDI
-    float depth = 0;             // perceptive depth, pixels
+    float depth = 0;             // disparity, pixels
     bool found() const { return sample != none; }
 };
 
 class Links {
 public:
     Links(const Ldi &ldi, const ThinLens &lens)
-        : ldi_(ldi), alpha_(ldi.alpha()), depth_at_1_(float(perceptive_depth(lens, 1))) {}
+        : ldi_(ldi), alpha_(ldi.alpha()), depth_at_1_(float(disparity(lens, 1))) {}
 
     // Calls visit(sample) for the opaque samples of a pixel, which is relative to the data window's corner. A pixel
     // outside the window has none.
@@ -92,7 +92,7 @@ private:
 // Finds which samples of a cell of several pixels lie on one surface, however steep it is. Returns, for each sample of
 // the LDI, the first sample of its cell that links lead to from it, from pixel to pixel within the cell. Cells are
 // `across` pixels wide and high; the first one begins at EXR coordinate (0, 0). The result is the sample itself if it
-// shows an image (Ldi::optical), and in cells whose opaque samples lie at most `apart` pixels of perceptive depth from
+// shows an image (Ldi::optical), and in cells whose opaque samples lie at most `apart` pixels of disparity from
 // each other, where the answer is not needed. The LDI must have fewer than 2^32 samples.
 std::vector<std::uint32_t> joined_in_cells(const Ldi &ldi, const Links &links, int across, float apart);
 

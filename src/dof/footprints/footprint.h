@@ -1,7 +1,7 @@
 // The area that a sample covers in the picture that a lens point sees: a unit square, or up to where a neighbour on the
 // same surface begins, so that samples that lie between pixels or move apart leave no cracks between them.
 //
-// Two samples of adjacent pixels, the nearest in depth to each other, are one surface if their perceptive depths differ
+// Two samples of adjacent pixels, the nearest in depth to each other, are one surface if their disparities differ
 // by less than a pixel; they then move apart by less than a pixel, too. They share an edge, which lies in the middle
 // between them and moves with the mean of their CoCs. From a difference of 3/4 of a pixel on, each sample's edge leaves
 // the shared one; at one pixel it is the edge of the sample's own square. So nothing tears suddenly as the aperture
@@ -27,7 +27,7 @@ struct Footprint {
     std::array<float, 4> coc;   // pixels: the CoC that displaces each edge
 };
 
-// Samples of an LDI, or some of them, where a lens sees them: their centres, CoCs and perceptive depths, in pixels, and
+// Samples of an LDI, or some of them, where a lens sees them: their centres, CoCs and disparities, in pixels, and
 // their indices in the LDI. An index beyond the LDI's samples marks a sample that is not the LDI's.
 struct SamplesInPicture {
     std::span<const float> x, y, coc;
@@ -58,7 +58,7 @@ float coc_to_edges(const Links *links, const Imath::Box2i &pixels);
 // by at most a small part of a pixel.
 struct JoinedFootprint {
     Footprint footprint;
-    float depth;          // perceptive depth of the farthest sample, pixels
+    float depth;          // disparity of the farthest sample, pixels
     float nearest;        // the same of the nearest sample
     std::uint32_t sample; // the first of the joined samples
 };

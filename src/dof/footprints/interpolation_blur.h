@@ -46,7 +46,7 @@ struct SurfaceNeighbours {
 };
 
 // Returns the neighbours of sample i in pixel (x, y), which is relative to the data window's corner. A neighbour is the
-// sample of its pixel that is nearest in perceptive depth, and closer than one_surface_px. From 3/4 of that distance on
+// sample of its pixel that is nearest in disparity, and closer than one_surface_px. From 3/4 of that distance on
 // it shows the surface less and less, so that nothing changes suddenly as the aperture opens.
 SurfaceNeighbours surface_neighbours(const Ldi &ldi, const ThinLens &lens, std::uint64_t i, int x, int y);
 

@@ -22,14 +22,14 @@ constexpr float unknown = -1; // depth of a ground
 
 // The last thing that a pixel holds.
 struct Ground {
-    float depth = unknown;                  // perceptive depth, pixels
+    float depth = unknown;                  // disparity, pixels
     std::uint32_t sample = Filler::nothing; // of the LDI
 };
 
 Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens, std::size_t pixel,
                  bool known) {
     const auto at_depth = [&](double z, std::uint32_t sample) {
-        return Ground{float(perceptive_depth(lens, z)), sample};
+        return Ground{float(disparity(lens, z)), sample};
     };
     std::uint32_t last = Filler::nothing;
     const double left = for_shares(ldi, alpha_channel, ldi.pixel(pixel), [&](std::uint64_t i, double) {
@@ -167,7 +167,7 @@ struct Side {
 bool is_seen(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, const Ground &ground) {
     if (ground.sample == Filler::nothing) return false;
     for (const std::uint64_t i : ldi.pixel(pixel)) {
-        const auto depth = float(perceptive_depth(lens, double(ldi.z[i])));
+        const auto depth = float(disparity(lens, double(ldi.z[i])));
         if (kernels::is_one_surface(depth, ground.depth, one_surface_px)) return true;
     }
     return false;
@@ -235,7 +235,7 @@ PlacedSample placed(const ThinLens &lens, const Filler &filler, int x, int y, st
     return {float(x) + 0.5f,
             float(y) + 0.5f,
             float(circle_of_confusion(lens, double(filler.z))),
-            float(perceptive_depth(lens, double(filler.z))),
+            float(disparity(lens, double(filler.z))),
             1,
             source};
 }
@@ -265,7 +265,7 @@ private:
 
 // Whether a sample of a pixel is one surface with samples of most pixels in the square of three by three around it.
 bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint64_t sample) {
-    const auto depth = [&](std::uint64_t i) { return perceptive_depth(lens, double(ldi.z[i])); };
+    const auto depth = [&](std::uint64_t i) { return disparity(lens, double(ldi.z[i])); };
     const auto shows_it = [&](std::size_t p) {
         for (const std::uint64_t i : ldi.pixel(p))
             if (kernels::is_one_surface<double>(depth(i), depth(sample), one_surface_px)) return true;

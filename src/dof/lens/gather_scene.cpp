@@ -53,7 +53,7 @@ GatherScene placed(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                       known,
                       lens,
                       std::make_unique<Optics>(ldi, lens, looks, coc),
-                      {nullptr, perceptive_depth(lens, 1), corner},
+                      {nullptr, disparity(lens, 1), corner},
                       make_blocks(ldi, lens, known),
                       {},
                       {},
@@ -168,7 +168,7 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const std::vector<float> left = left_by_highlights(scene);
     const auto joined = joined_in_cells(large, Links(large, scene.lens), across, float(tolerance));
     auto small = std::make_unique<Ldi>(proxy(
-        large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left, joined}));
+        large, across, {disparity_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left, joined}));
     // A sample that covers a part of a cell is spread over the cell. With an offset, it would hide its neighbours, and
     // light would be lost.
     small->dx.clear(), small->dy.clear();

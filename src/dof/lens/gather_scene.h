@@ -76,10 +76,10 @@ private:
 
 struct HeldOut {
     const Holdout *by = nullptr;
-    double depth_at_1 = 1;   // perceptive depth at z = 1
+    double depth_at_1 = 1;   // disparity at z = 1
     Imath::V2i corner{0, 0}; // of the data window that the samples are relative to, EXR coordinates
 
-    // Returns the share of light from a perceptive depth that passes the holdout at a pixel, which is relative to
+    // Returns the share of light from a disparity that passes the holdout at a pixel, which is relative to
     // `corner`. `by` must be set.
     float passes(const Imath::V2i &pixel, float depth) const {
         const double z = depth > 0 ? depth_at_1 / double(depth) : std::numeric_limits<double>::infinity();

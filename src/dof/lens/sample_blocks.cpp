@@ -21,7 +21,7 @@ PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float
     return {float(x) + 0.5f + place.dx,
             float(y) + 0.5f + place.dy,
             float(circle_of_confusion(lens, ldi.optical_z(i))),
-            float(perceptive_depth(lens, double(place.z))),
+            float(disparity(lens, double(place.z))),
             alpha,
             std::uint32_t(i),
             surface_coc};
@@ -220,7 +220,7 @@ public:
         return {float(x) + 0.5f + s.dx,
                 float(y) + 0.5f + s.dy,
                 float(circle_of_confusion(lens_, 1 / (1 / double(s.z) - double(s.solid)))),
-                float(perceptive_depth(lens_, 1 / hides_from(i))),
+                float(disparity(lens_, 1 / hides_from(i))),
                 1,
                 std::uint32_t(i)};
     }

@@ -49,7 +49,7 @@ struct SampleBlock {
     bool shows_opaque;                    // whether it has opaque samples other than backgrounds
     bool shows_images;                    // whether any sample is_image()
     bool has_background;                  // whether any sample is a background
-    float depth_min, depth_max;           // perceptive, pixels: of the farthest sample and the nearest
+    float depth_min, depth_max;           // disparity, pixels: of the farthest sample and the nearest
 };
 
 struct BlockedSamples {
@@ -75,7 +75,7 @@ struct BlockedSamples {
     static constexpr int size = 8;   // pixels a block is wide and high
 
     std::size_t count() const { return x.size(); }
-    // Perceptive, pixels: larger is nearer.
+    // Disparity, pixels: larger is nearer.
     float depth(std::size_t i) const { return kernels::depth_of(upper[i]); }
     // Nearer is greater, no two are equal. Never 0.
     std::uint64_t key(std::size_t i) const {

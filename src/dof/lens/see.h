@@ -139,7 +139,7 @@ private:
 // Returns a bit for each of 64 keys: whether it is 0.
 std::uint64_t zeros_of(const std::uint64_t *keys);
 
-// Writes the perceptive depth, in pixels, of each key (kernels/lens_rules.h).
+// Writes the disparity, in pixels, of each key (kernels/lens_rules.h).
 void depths_of(std::span<const std::uint64_t> keys, float *depths);
 
 // Returns a bit for each of 64 cells: whether it shows something farther than the cells on two opposite sides of it, so

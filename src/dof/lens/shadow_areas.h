@@ -20,7 +20,7 @@ namespace sparselens {
 
 // Bounds of all samples nearer than some depth, and perhaps of some others.
 struct NearBounds {
-    float depth; // of the nearest sample that is not included, perceptive, pixels
+    float depth; // of the nearest sample that is not included, disparity, pixels
     float x_min, x_max, y_min, y_max, coc_min, coc_max;
 };
 
@@ -61,17 +61,17 @@ public:
     // The blocks of an area, ascending.
     std::vector<std::uint32_t> blocks_of(std::size_t area) const;
 
-    // Returns the bounds of the samples of an area that are nearer than a perceptive depth; null: there are none. They
+    // Returns the bounds of the samples of an area that are nearer than a disparity; null: there are none. They
     // bound the centres of the samples, and the CoCs of their footprints (dof/footprints/footprint.h), whose edges lie
     // less than a pixel from the centres. May be called by any thread.
     const NearBounds *nearer_than(std::size_t area, float depth) const;
-    // Whether any sample of an area may lie between two perceptive depths.
+    // Whether any sample of an area may lie between two disparities.
     bool lies_between(std::size_t area, float farthest, float nearest) const {
         return depths_[area].nearest > farthest && depths_[area].farthest <= nearest;
     }
 
-    // Returns the CoCs that footprints of an area's samples between two perceptive depths may have. nearer_than() must
-    // have been called for the area. The CoCs of two samples differ as their perceptive depths do, and the nearer one
+    // Returns the CoCs that footprints of an area's samples between two disparities may have. nearer_than() must
+    // have been called for the area. The CoCs of two samples differ as their disparities do, and the nearer one
     // has the smaller CoC, except in a bent field.
     CocRange cocs_between(std::size_t area, float farthest, float nearest) const {
         return {focus_[area].least - nearest, focus_[area].most - farthest};
@@ -81,7 +81,7 @@ public:
     // nearer_than() must have been called for the block's area.
     float to_edges(std::uint32_t block) const { return to_edges_[block]; }
 
-    // Whether any sample of a block may lie between two perceptive depths; nearer_than() must have been called for its
+    // Whether any sample of a block may lie between two disparities; nearer_than() must have been called for its
     // area.
     bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
         return block_depths_[block].lies_between(farthest, nearest);
@@ -106,13 +106,13 @@ private:
     const BlockedSamples &samples_;
     const Links *links_;
     int columns_;
-    struct Depths { // perceptive
+    struct Depths { // disparity
         float farthest = std::numeric_limits<float>::max(), nearest = 0;
     };
     std::vector<Depths> depths_; // [area]
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<NearSteps> steps_; // [area]
-    // [area]: the range of CoC plus perceptive depth, which is the perceptive depth of the focus.
+    // [area]: the range of CoC plus disparity, which is the disparity of the focus.
     mutable std::vector<CocRange> focus_;
     mutable std::vector<BlockDepths> block_depths_;
     mutable std::vector<float> to_edges_; // [block]
@@ -126,7 +126,7 @@ public:
     BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links = {});
     BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
 
-    struct DepthRange { // perceptive
+    struct DepthRange { // disparity
         float farthest, nearest;
     };
     struct Block {
@@ -135,7 +135,7 @@ public:
         NearSteps near;                             // bounds of the joined footprints
 
         // Returns the joined footprints; the single ones if a joined one could lie on both sides of a lamp whose
-        // perceptive depth is between these.
+        // disparity is between these.
         const std::vector<JoinedFootprint> &apart_from(float farthest, float nearest) const;
     };
     // Computed when first asked for, by any thread.

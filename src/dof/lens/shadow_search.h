@@ -54,7 +54,7 @@ using CasterBlocks = std::vector<std::span<const std::uint32_t>>;
 struct CoarseCasters {
     CasterSets sets;
     CasterBlocks blocks;
-    float far_cells; // so many cells of perceptive depth in front of a lamp, these cast its shadows
+    float far_cells; // so many cells of disparity in front of a lamp, these cast its shadows
 };
 
 // A lamp, or the middle one of a group.
@@ -66,7 +66,7 @@ struct ShadowedLamp {
     // A caster only slightly nearer than the lamp, up to the depth `hardly`, has almost no parallax; it counts only if
     // it covers the lamp directly.
     float depth, hardly;
-    float far; // perceptive depth, pixels, from which on coarse casters are used; infinite: there are none
+    float far;          // disparity, pixels, from which on coarse casters are used; infinite: there are none
     Imath::Box2f place; // of all lamps of the group
     double spread = 0;  // pixels: the radius of the group around it
     double cocs = 0;    // pixels: by how much the group's CoCs differ from its own at most
@@ -95,13 +95,13 @@ public:
     void begin(const CasterBlocks &blocks, const Imath::V2d &extent, const CoarseCasters *coarse);
 
     const ShadowCasters &casters(std::size_t set) const { return casters_[set]; }
-    // The range of perceptive depths, in the pixels of a set of casters, in which its casters cast shadows.
+    // The range of disparities, in the pixels of a set of casters, in which its casters cast shadows.
     struct Range {
         float farthest, nearest;
     };
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
-    // The perceptive depth from which on coarse casters cast the shadows on a lamp, or on a group around it.
+    // The disparity from which on coarse casters cast the shadows on a lamp, or on a group around it.
     float far_before(float depth, double coc) const;
 
     // Calls visit(block), until it returns false, for the blocks that may cast a shadow on the lamp's screen: of the

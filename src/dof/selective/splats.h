@@ -22,7 +22,7 @@ namespace sparselens {
 //
 // A fragment is the share of a splat that its PSF brings to the pixel: coverage, what is known of it (below) and
 // premultiplied colours, times the PSF's weight. Fragments are binned by CoC, which at a given focus differs from
-// perceptive depth (R F / z) only by a sign and a constant. Bins that follow each other without a gap are one layer,
+// disparity (R F / z) only by a sign and a constant. Bins that follow each other without a gap are one layer,
 // and layers are blended in order of depth. The coverage of a layer is the sum of its fragments' coverages, and its
 // colour is their mean.
 //

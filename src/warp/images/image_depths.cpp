@@ -22,7 +22,7 @@ namespace {
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int near_by = WarpTuning::image_plane_reach, farther = WarpTuning::image_continued_reach;
 
-// Perceptive depths of pixels, by the numbers that the search gives them; NaN: not known.
+// Disparities of pixels, by the numbers that the search gives them; NaN: not known.
 using Depths = std::vector<float>;
 
 // Makes depths of what the search found, in steps. Each step makes the depths of a block from what the step before made
@@ -269,7 +269,7 @@ private:
         ldi_.weight[i] = float(count);
         ldi_.z[i] = seen[0].view->z(seen[0].index);
         if (!ldi_.z_back.empty()) ldi_.z_back[i] = ldi_.z[i];
-        ldi_.optical[i] = float(depth_of_perceptive(scale_, depth));
+        ldi_.optical[i] = float(depth_at_disparity(scale_, depth));
         for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
             double sum = 0;
             const bool light = is_light(ldi_.channels[k]) && k != alpha_;

@@ -18,7 +18,7 @@ namespace sparselens {
 // them.
 std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const Disagreement> differ);
 
-// Perceptive depth of the image that a pixel shows; NaN: the pixel shows its surface, or nothing is known.
+// Disparity of the image that a pixel shows; NaN: the pixel shows its surface, or nothing is known.
 using ImageDepthAt = std::function<float(const Imath::V2i &pixel)>;
 using ShowImages = std::function<void(const Imath::Box2i &block, const ImageDepthAt &depth_at)>;
 

@@ -24,7 +24,7 @@ struct ImageMatch {
     bool surface = false; // it shows the surface of its block, and the views can be compared
     // one depth explains the views, and better by a clear margin than the surface's depth
     bool found = false;
-    float depth = 0; // perceptive, pixels; below 0: rays meet behind the camera
+    float depth = 0; // disparity, pixels; below 0: rays meet behind the camera
     // of what the pixel shows, even if that is not the surface of its block; NaN: unknown
     float own_depth = std::numeric_limits<float>::quiet_NaN();
     float at_surface = 0; // the difference if the picture lay on the surface
@@ -90,7 +90,7 @@ void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
 // The depths found in a picture, for its pixels row by row; NaN: nothing was found.
 struct ImageGuesses {
     Grid grid;
-    std::vector<float> depths; // perceptive, in pixels of the picture
+    std::vector<float> depths; // disparity, in pixels of the picture
 
     // The depths found near a block of the picture that is twice as large, in pixels of that picture.
     std::vector<float> near(const Imath::Box2i &block) const;

@@ -94,7 +94,7 @@ float MatchedView::depth(int x, int y) const {
     if (across_ == 1) {
         const std::size_t pixel = grid_.index(x, y);
         if (!view_.samples->is_single(pixel)) return unknown;
-        return float(perceptive_depth(scale_, double(view_.samples->z(view_.samples->pixel(pixel).front()))));
+        return float(disparity(scale_, double(view_.samples->z(view_.samples->pixel(pixel).front()))));
     }
     float depth = unknown;
     depths_of({x, y}, std::span(&depth, 1));
@@ -125,7 +125,7 @@ void MatchedView::depths_of(const Imath::V2i &first, std::span<float> out) const
     for (int v = 0; v < across_; ++v) {
         read_line(view.windows, first * across_ + Imath::V2i(0, v), std::span(line),
                   [&](std::size_t i, std::span<float> values) { view.single_depths(i, values); });
-        for (float &depth : line) depth = float(perceptive_depth(scale_, double(depth)));
+        for (float &depth : line) depth = float(disparity(scale_, double(depth)));
         if (across_ == 1) return void(std::ranges::copy(line, out.begin()));
         if (v == 0) {
             for (std::size_t x = 0; x < out.size(); ++x) firsts.push_back(line[x * side]);

@@ -29,7 +29,7 @@ struct PlacedView {
 // Several threads may read it at the same time.
 class MatchedView {
 public:
-    // R, G and B, bounded so that one bright pixel does not decide, and the perceptive depth of the surface. The depth
+    // R, G and B, bounded so that one bright pixel does not decide, and the disparity of the surface. The depth
     // is NaN if the pixel or one beside it shows several surfaces, none or another one, because the colours are mixed
     // there.
     using Pixel = std::array<float, 4>;
@@ -138,7 +138,7 @@ public:
     static constexpr int reach = 8; // pixels around the block
 
     struct Pixel {
-        float own_depth; // perceptive, of its surface; NaN: unknown
+        float own_depth; // disparity, of its surface; NaN: unknown
         float depth;     // of its image; NaN: not known
     };
     template <typename PixelAt>

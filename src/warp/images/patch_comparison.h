@@ -52,11 +52,11 @@ public:
     int height() const { return height_; }
     static std::size_t at(int x, int y) { return std::size_t(y * row + x); }
 
-    // The perceptive depths of the surfaces; only those of pixels that count are known.
+    // The disparities of the surfaces; only those of pixels that count are known.
     const Field &own_depths() const { return depths_; }
 
     // Writes the difference at each pixel of the block, row by row, if what it and the pixels around show lies at one
-    // perceptive depth: mean squares over the patch, of R, G and B together; NaN where too little can be compared.
+    // disparity: mean squares over the patch, of R, G and B together; NaN where too little can be compared.
     void at_depth(const MatchedView &view, double depth, std::span<float> out);
     // The same, if what they show lies at these depths plus `behind`; a pixel whose depth is NaN does not count.
     void at_depths(const MatchedView &view, const Field &depths, double behind, std::span<float> out);

@@ -18,7 +18,7 @@
 
 namespace sparselens {
 
-// The LDI is the average of the views, the first of which is the centre. `scale` is R F; perceptive depths that differ
+// The LDI is the average of the views, the first of which is the centre. `scale` is R F; disparities that differ
 // by less than `surface_px` pixels are one surface. Scales all channels of light except coverage. A lamp stays as it is
 // if something nearer cuts it in the centre view, if less than half of the views see all of it and agree within noise,
 // or if the change would be large.

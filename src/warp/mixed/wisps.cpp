@@ -113,7 +113,7 @@ double lit_share(const Imath::V3d &colour, const Share &found) {
 
 // Something farther than strands, which may be behind them in a pixel.
 struct Ground {
-    double depth; // perceptive
+    double depth; // disparity
     Imath::V3d colour;
     std::optional<std::uint64_t> sample = {}; // of the view, if it shows the colour
 };
@@ -257,7 +257,7 @@ OtherViews::Around OtherViews::around(const ViewSamples &samples, std::size_t pi
     for (const std::size_t line : {pixel - row, pixel, pixel + row})
         for (const std::size_t i : {line - 1, line, line + 1}) {
             if (samples.pixel(i).empty()) continue;
-            all.nearest = std::max(all.nearest, perceptive_depth(scale_, double(samples.z(i))));
+            all.nearest = std::max(all.nearest, disparity(scale_, double(samples.z(i))));
             all.brightest = std::max(all.brightest, colour_of(samples, i).length());
         }
     return all;
@@ -278,7 +278,7 @@ std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, dou
     int count = 0;
     for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
         if (samples.pixel(seen).empty() || !is_opaque(alpha_at(samples, alpha_, seen))) return;
-        if (!(std::abs(perceptive_depth(scale_, double(samples.z(seen))) - depth) < apart)) return;
+        if (!(std::abs(disparity(scale_, double(samples.z(seen))) - depth) < apart)) return;
         if (!(around(samples, seen).nearest < depth + apart)) return;
         sum += colour_of(samples, seen);
         ++count;

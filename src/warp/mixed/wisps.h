@@ -38,7 +38,7 @@ public:
     OtherViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings, std::size_t own,
                double scale);
 
-    // Returns the colour of the surface at that perceptive depth, where the ray of the own view's pixel (from the
+    // Returns the colour of the surface at that disparity, where the ray of the own view's pixel (from the
     // window's corner) meets it: the mean over the other flat views that show the surface there, opaque, and nothing
     // that is nearer by `apart` or more in that pixel or beside it. Returns nothing if there is no such view.
     std::optional<Imath::V3d> colour_behind(const Imath::V2i &pixel, double depth, double apart) const;
@@ -64,7 +64,7 @@ private:
     std::size_t alpha_;
 };
 
-// The samples of a view with at most one per pixel, and the samples around them. Depths are perceptive, R F / z:
+// The samples of a view with at most one per pixel, and the samples around them. Depths are disparities, R F / z:
 // pixels, larger is nearer.
 class SamplesAround {
 public:
@@ -73,7 +73,7 @@ public:
         : view_(view), grid_(view.windows.width(), view.windows.height()), alpha_(view.alpha()),
           rgb_(find_rgb(view.channels)), depths_(grid_.size()) {
         parallel_ranges(depths_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) depths_[i] = perceptive_depth(scale, double(view.z(i)));
+            for (std::size_t i = begin; i < end; ++i) depths_[i] = disparity(scale, double(view.z(i)));
         });
     }
 
@@ -115,7 +115,7 @@ private:
 // A pixel of a view that mixes two surfaces: c = a F + (1 - a) B, where F is what the nearer one shows and B what the
 // farther one does.
 struct Mixture {
-    double near_depth, far_depth; // perceptive
+    double near_depth, far_depth; // disparity
     double share;                 // a, of the nearer surface; 0: all of the pixel belongs to the farther one
     // B. The coefficients sum to 1, or to the density of a veil. The nearer surface shows the rest of the pixel.
     std::vector<Term> behind;
@@ -123,10 +123,10 @@ struct Mixture {
 };
 
 // Whether the pixel stands among strands: of the 20 pairs of neighbours within two pixels, five or more jump by more
-// than two pixels of perceptive depth, along rows and along columns.
+// than two pixels of disparity, along rows and along columns.
 bool among_strands(const SamplesAround &samples, int x, int y);
 
-// The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Perceptive: `jump`
+// The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Pixels of disparity: `jump`
 // parts the lamp from what is behind it, `apart` the strands from both. `others` may be null.
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
                                              double apart, const OtherViews *others);

@@ -13,7 +13,7 @@ namespace {
 
 const ThinLens lens{.radius = 0.625, .focal_px = 640, .focus = 5}; // R F / focus = 80 px
 
-// Channels Y and A; `depth`: perceptive depth, pixels.
+// Channels Y and A; `depth`: disparity, pixels.
 Ldi surface(int width, int height, const std::function<double(int x, int y)> &depth, double alpha = 1) {
     return make_ldi(windows_of_size(width, height), {{"Y"}, {"A"}}, [&](int x, int y) {
         return std::vector<Sample>{{lens.radius * lens.focal_px / depth(x, y), {0, float(alpha)}}};

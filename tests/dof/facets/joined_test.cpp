@@ -13,7 +13,7 @@ constexpr int across = 8;
 constexpr float apart = 4;
 const ThinLens lens{.radius = 0.625, .focal_px = 640, .focus = 5};
 
-// An opaque sample in each pixel from column 8 of EXR coordinates on. `depth`: perceptive depth, pixels.
+// An opaque sample in each pixel from column 8 of EXR coordinates on. `depth`: disparity, pixels.
 Ldi surface(const std::function<double(int x)> &depth, bool shows_images = false) {
     Windows windows = windows_of_size(4 * across, across);
     windows.data = Imath::Box2i({across, 0}, {3 * across - 1, across - 1});

@@ -20,7 +20,7 @@ const ThinLens strong{.radius = 0.3, .focal_px = 640, .focus = 6}; // up to 32 p
 const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}}, coloured{{"R"}, {"A"}};
 
 double infinite_coc(const ThinLens &of) { return of.radius * of.focal_px / of.focus; }
-double near_of(const ThinLens &of, double c) { return infinite_coc(of) - c; } // perceptive depth
+double near_of(const ThinLens &of, double c) { return infinite_coc(of) - c; } // disparity
 
 // A row with one sample per pixel at these CoCs, none where it is NAN. The value is the column.
 Ldi row_of(const std::vector<double> &cocs) {
@@ -198,7 +198,7 @@ TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
     EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
 }
 
-// A lamp of radius 5 pixels is 5 pixels beyond the frame at a perceptive depth of 4 pixels: rim views saw four columns
+// A lamp of radius 5 pixels is 5 pixels beyond the frame at a disparity of 4 pixels: rim views saw four columns
 // of it.
 TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     const Imath::Box2i frame({10, 0}, {79, 79});
@@ -234,7 +234,7 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y))
                                                    : SampleRange{0, 0};
         };
-        const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
+        const auto near = [&](std::uint64_t k) { return disparity(lens, double(ldi.z[k])); };
         // The samples m pixels from the frame beyond which no view looked, or one pixel farther with no sample.
         const auto seen_last = [&](const Imath::V2i &at, const Imath::V2i &step, int m) {
             std::vector<std::uint64_t> found;
@@ -340,7 +340,7 @@ double covered_share(const Inside &inside, int x, int y) {
 
 constexpr int width = 80, height = 45;
 
-// The pixels of a shape at that perceptive depth that five views show.
+// The pixels of a shape at that disparity that five views show.
 Windows shown_windows(double near, bool five) {
     Windows windows = windows_of_size(width, height);
     if (!five) return windows;

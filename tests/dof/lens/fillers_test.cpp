@@ -100,12 +100,12 @@ TEST(Fillers, AreWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
         const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
         const Imath::Box2i known({5, 4}, {60, 45});
-        const auto ground = [&](int x, int y) { // perceptive depth, -1: unknown
+        const auto ground = [&](int x, int y) { // disparity, -1: unknown
             double left = 1, depth = -1;
             for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
                 const double alpha = opaque ? 1 : double(ldi.values[ldi.alpha()][i]);
                 left *= 1 - alpha;
-                if (alpha >= 0.5) depth = perceptive_depth(lens, double(ldi.z[i]));
+                if (alpha >= 0.5) depth = disparity(lens, double(ldi.z[i]));
             }
             return left < 1.0 / 2048 ? depth : known.intersects(Imath::V2i(x, y)) ? 0 : -1;
         };
@@ -138,11 +138,11 @@ TEST(Fillers, AreWhatTheRuleSays) {
                 double &e = expected[ldi.windows.index(x, y)];
                 bool is_seen = false;
                 for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y)))
-                    is_seen = is_seen || std::abs(perceptive_depth(lens, double(ldi.z[i])) - e) < 0.5;
+                    is_seen = is_seen || std::abs(disparity(lens, double(ldi.z[i])) - e) < 0.5;
                 if (e > 0 && is_seen) e = -1;
             }
         for (const Filler &filler : find_fillers(ldi, lens, known))
-            depths[filler.pixel] = perceptive_depth(lens, double(filler.z));
+            depths[filler.pixel] = disparity(lens, double(filler.z));
         for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(depths[i], expected[i], 1e-5) << i;
     }
 }

@@ -211,7 +211,7 @@ TEST(ShadowAreas, BoundAllThatIsNearer) {
     const BlockedSamples &samples = blocked.samples;
     const ShadowAreas areas(samples, nullptr);
     for (const double z : {1.0, 2.5, 4.0, 11.0, 24.0, 45.0, 1e6}) {
-        const auto depth = float(perceptive_depth(lens, z));
+        const auto depth = float(disparity(lens, z));
         for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
             const NearBounds *bounds = areas.nearer_than(areas.of(b), depth);
             for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i) {

@@ -36,7 +36,7 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
         EXPECT_FLOAT_EQ(samples.x[i], float(pixel_of[s] % 45) + 0.5f + ldi.dx[s]);
         EXPECT_FLOAT_EQ(samples.y[i], float(pixel_of[s] / 45) + 0.5f + ldi.dy[s]);
         EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, ldi.optical_z(s))));
-        EXPECT_FLOAT_EQ(samples.depth(i), float(perceptive_depth(lens, double(ldi.z[s]))));
+        EXPECT_FLOAT_EQ(samples.depth(i), float(disparity(lens, double(ldi.z[s]))));
         EXPECT_EQ(samples.alpha[i], ldi.values[ldi.alpha()][s]);
     }
     EXPECT_EQ(seen.size(), ldi.samples());

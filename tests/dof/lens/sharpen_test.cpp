@@ -137,7 +137,7 @@ TEST(Sharpen, LetsGoOfASurfaceByAndBy) {
             place_of(blocked.samples, ldi, ldi.windows.index(33, 32), std::uint32_t(sample));
         return double(blocked.colours.at(0, place));
     };
-    constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of perceptive depth between the surfaces
+    constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of disparity between the surfaces
     EXPECT_EQ(edge_at(parted), 5);
     EXPECT_LT(edge_at(joined), 2);
     double last = edge_at(joined);

@@ -51,7 +51,7 @@ Ldi warped(const std::vector<View> &views, bool find_images = true, int across =
 }
 
 // For the centre view's pixels except the outermost: the share whose front sample has an image, and the share whose
-// image is within this perceptive depth, in pixels, of the right one.
+// image is within this disparity, in pixels, of the right one.
 struct Shares {
     double found = 0, right = 0;
 };
@@ -107,7 +107,7 @@ TEST(Images, SurfacesHaveNone) {
     EXPECT_TRUE(warped(mirror(6), false).optical.empty());
 }
 
-// An image 0.4 pixels of perceptive depth behind the mirror is searched if two of these pixels make a pixel of the
+// An image 0.4 pixels of disparity behind the mirror is searched if two of these pixels make a pixel of the
 // picture, but not if four do.
 TEST(Images, ThatMoveByLessThanAQuarterOfThePicturesPixelAreNotLookedFor) {
     const auto found = [](double moves, int across) {
@@ -122,7 +122,7 @@ TEST(Images, ThatMoveByLessThanAQuarterOfThePicturesPixelAreNotLookedFor) {
     EXPECT_EQ(found(0.6, 8), 0);
 }
 
-// A mirror from the top to the bottom, 16 pixels wide, that recedes by a quarter of a pixel of perceptive depth per
+// A mirror from the top to the bottom, 16 pixels wide, that recedes by a quarter of a pixel of disparity per
 // pixel. Near its edges, too little of a patch shows the surface of a block to be compared; the depth of the image is
 // continued there.
 TEST(Images, ReachTheEdgesOfASteepMirror) {

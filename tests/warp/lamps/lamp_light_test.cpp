@@ -21,7 +21,7 @@ constexpr double radiance = 5000, focal_px = 100, radius = 1;
 // Square lamps before a wall of radiance 1.
 struct Lamps {
     double side;             // pixels
-    double lamp_px, wall_px; // perceptive depth
+    double lamp_px, wall_px; // disparity
     bool
         by_chance; // a pixel has the lamp's depth as often as it shows it; else if it is more than half of it
 };

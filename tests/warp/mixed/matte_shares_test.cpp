@@ -14,7 +14,7 @@ namespace {
 
 using namespace warping;
 
-constexpr double scale = 20; // of depths 2 and 10: 8 pixels of perceptive depth apart
+constexpr double scale = 20; // of depths 2 and 10: 8 pixels of disparity apart
 constexpr int objects = 4;   // of the 6 that fit into the pairs
 
 using Pairs = std::vector<IdCoverage::Pair>;

@@ -38,7 +38,7 @@ struct Scene {
 
 TEST(OtherViews, ShowWhatACardHides) {
     const Scene scene({0, 0.2});
-    const auto colour = scene.behind(0, 17); // the card's column 17; the wall's perceptive depth is 2
+    const auto colour = scene.behind(0, 17); // the card's column 17; the wall's disparity is 2
     ASSERT_TRUE(colour);
     EXPECT_NEAR(colour->x, 17.5, 1e-5);
     EXPECT_EQ(colour->y, 0);

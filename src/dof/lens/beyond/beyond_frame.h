@@ -3,7 +3,7 @@
 //
 // A pixel beyond the frame continues the nearest pixel of the frame: it has the same samples, with their coverage,
 // depth and position in the pixel, and is transparent to infinity if that pixel is. If there are samples beyond a side,
-// rim views looked past the frame there, by the perceptive depth of what they saw: n pixels from the frame they showed
+// rim views looked past the frame there, by the disparity of what they saw: n pixels from the frame they showed
 // everything nearer than n - 1/2 pixels. A sample then continues from the last pixel in which they could see it, or
 // from the last but one if they saw nothing of its surface in the last, where parallax may tear it. A surface that they
 // saw end ends, and a surface that only they saw continues too. Past corners, samples continue that continue both above
@@ -44,7 +44,7 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
 // `known`: the rows of the frame whose samples the LDI has. The picture is continued only beyond those of its sides
 // that are sides of the frame. `across`: pixels, across and down, that become one pixel of the picture; the distances
 // above are counted in pixels of the picture, except what rim views saw. `views_radius`: the radius of the lens from
-// whose rim the views looked, scene units; perceptive depth in the pixels of that lens says what they saw. 0: the
+// whose rim the views looked, scene units; disparity in the pixels of that lens says what they saw. 0: the
 // radius of `lens`.
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,

@@ -97,7 +97,7 @@ bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) con
     return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
 }
 
-// The perceptive depth of the first opaque sample of a pixel; below 0, and so behind all, if there is none.
+// The disparity of the first opaque sample of a pixel; below 0, and so behind all, if there is none.
 double Border::front(const Imath::V2i &at) const {
     for (const std::uint64_t i : samples(at))
         if (is_opaque(alpha_at(ldi_, alpha_, i))) return depth(i);
@@ -134,14 +134,14 @@ void Border::find_end(BorderPixel &of, const Line &line, int i) const {
 
 bool Border::closed(const SampleRange &range) const { return !lets_through(ldi_, alpha_, range); }
 
-// Whether any of these samples belongs to the surface at that perceptive depth.
+// Whether any of these samples belongs to the surface at that disparity.
 bool Border::shows(const SampleRange &range, double there) const {
     for (const std::uint64_t i : range)
         if (is_one_surface(depth(i), there)) return true;
     return false;
 }
 
-// The brightness of the brightest sample of the surface at that perceptive depth.
+// The brightness of the brightest sample of the surface at that disparity.
 float Border::light_at(const Imath::V2i &at, double there) const {
     float most = 0;
     for (const std::uint64_t i : samples(at))

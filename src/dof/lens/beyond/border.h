@@ -17,7 +17,7 @@
 
 namespace sparselens {
 
-// Whether two perceptive depths belong to one surface.
+// Whether two disparities belong to one surface.
 inline bool is_one_surface(double a, double b) {
     return kernels::is_one_surface<double>(a, b, one_surface_px);
 }
@@ -25,7 +25,7 @@ inline bool is_one_surface(double a, double b) {
 // A sample that continues beyond the frame.
 struct Leaving {
     std::uint32_t sample;
-    double depth; // perceptive, in pixels of the lens from whose rim views looked
+    double depth; // disparity, in pixels of the lens from whose rim views looked
     int from;     // where it was seen last: pixels beyond the border
     float extent; // how far beyond that its small light reaches, pixels; infinite for all else
 
@@ -64,7 +64,7 @@ public:
     SampleRange samples(const Imath::V2i &at) const {
         return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
     }
-    double depth(std::uint64_t sample) const { return perceptive_depth(lens_, double(ldi_.z[sample])); }
+    double depth(std::uint64_t sample) const { return disparity(lens_, double(ldi_.z[sample])); }
 
 private:
     struct Line;
