@@ -42,7 +42,7 @@ Samples place(const Ldi &ldi, const ThinLens &lens) {
             const Imath::V2i pixel = ldi.windows.pixel(p);
             const Imath::V2d offset(ldi.dx.empty() ? 0 : double(ldi.dx[i]),
                                     ldi.dy.empty() ? 0 : double(ldi.dy[i]));
-            const double z = double(ldi.z[i]), shine = circle_of_confusion(lens, ldi.optical_z(i));
+            const double z = double(ldi.z[i]), shine = circle_of_confusion(lens, ldi.coc_z(i));
             samples.push_back({pixel,
                                Imath::V2d(pixel) + Imath::V2d(0.5) + offset,
                                is_opaque(alpha) ? circle_of_confusion(lens, z) : shine,

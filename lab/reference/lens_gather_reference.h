@@ -9,7 +9,7 @@
 // background there, and another background that moves with its last sample, behind everything. Coverage of 0.9995 or
 // more is full, and a pixel that passes less than 1/2048 passes no light: rounding to halves makes such differences.
 //
-// An opaque sample of a mirror or of glass (Ldi::optical) is met at its surface. The colour that it shows there comes
+// An opaque sample of a mirror or of glass (Ldi::image_z) is met at its surface. The colour that it shows there comes
 // from such samples displaced by the CoC of their images: from the one with the nearest image among those that cover
 // the point, if its surface is within one pixel of disparity; else the same in the pixel to the left, to the
 // right, above or below; else its own. Partial samples are simply displaced by the CoC of their images.

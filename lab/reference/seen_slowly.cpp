@@ -33,7 +33,7 @@ std::vector<Placed> place_samples(const Ldi &ldi, const ThinLens &lens, const Im
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const long double dx = ldi.dx.empty() ? 0 : ldi.dx[i], dy = ldi.dy.empty() ? 0 : ldi.dy[i];
                 const long double z = ldi.z[i], alpha = alpha_of(ldi, i);
-                const long double image_coc = coc_at(lens, ldi.optical_z(i));
+                const long double image_coc = coc_at(lens, ldi.coc_z(i));
                 const long double coc = alpha < opaque ? image_coc : coc_at(lens, z);
                 placed.push_back(
                     {x + dx, y + dy, coc, z, alpha < opaque ? alpha : 1, i, false, nullptr, image_coc});

@@ -34,7 +34,7 @@ bool holds(const Imath::Box2i &data, const Imath::Box2i &display) {
 // The bytes taken by the samples of a picture, and by the index of its pixels.
 double bytes_of(const Ldi &ldi) {
     std::size_t floats = ldi.values.size() * ldi.samples();
-    for (const auto *of : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical, &ldi.solid})
+    for (const auto *of : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.image_z, &ldi.solid})
         floats += of->size();
     return double(floats * sizeof(float)) + double(ldi.begin.size() * sizeof(ldi.begin[0]));
 }

@@ -36,7 +36,7 @@ OpenedPackedView packed(OpenedLdi opened) {
     const auto any = [](const std::vector<float> &offsets) {
         return std::ranges::any_of(offsets, [](float offset) { return offset != 0; });
     };
-    if (any(ldi.dx) || any(ldi.dy) || !ldi.optical.empty() || !ldi.solid.empty())
+    if (any(ldi.dx) || any(ldi.dy) || !ldi.image_z.empty() || !ldi.solid.empty())
         throw Error(opened.name + ": is an LDI, whose samples come from several views: give the views "
                                   "that it was made of, or merge LDIs with ldi-cluster");
     return {std::move(static_cast<OpenedFile &>(opened)), PackedView(opened.name, std::move(ldi))};

@@ -19,7 +19,7 @@ MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
             or_else(ldi.dx, 0),
             or_else(ldi.dy, 0),
             or_else(ldi.weight, 1),
-            float(ldi.optical_z(i)),
+            float(ldi.coc_z(i)),
             or_else(ldi.solid, 0),
             {}};
 }
@@ -46,7 +46,7 @@ float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> 
 
 Ldi without_channels(const Ldi &ldi) {
     return {ldi.windows, {},         ldi.begin,   ldi.z,     ldi.z_back, ldi.dx,
-            ldi.dy,      ldi.weight, ldi.optical, ldi.solid, {}};
+            ldi.dy,      ldi.weight, ldi.image_z, ldi.solid, {}};
 }
 
 Ldi empty_like(const Ldi &like) {
@@ -125,7 +125,7 @@ auto &array_of(Source &ldi, std::size_t k) {
     case 2: return ldi.dx;
     case 3: return ldi.dy;
     case 4: return ldi.weight;
-    case 5: return ldi.optical;
+    case 5: return ldi.image_z;
     case 6: return ldi.solid;
     default: return ldi.values[k - arrays_beside_values];
     }

@@ -19,7 +19,7 @@ struct Term {
 };
 
 struct MergedSample {
-    float z, z_back, dx, dy, weight, optical, solid;
+    float z, z_back, dx, dy, weight, image_z, solid;
     std::span<const Term> terms; // never empty
 };
 
@@ -122,7 +122,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample, const ValueAt
     if (!from.dx.empty()) out.dx.push_back(sample.dx);
     if (!from.dy.empty()) out.dy.push_back(sample.dy);
     if (!from.weight.empty()) out.weight.push_back(sample.weight);
-    if (!from.optical.empty()) out.optical.push_back(sample.optical);
+    if (!from.image_z.empty()) out.image_z.push_back(sample.image_z);
     if (!from.solid.empty()) out.solid.push_back(sample.solid);
     merge_values(out, from.channels, sample.terms, value_at);
     ++out.begin.back();

@@ -20,7 +20,7 @@ struct Pixel {
     double scale;
     double front(std::uint64_t i) const { return disparity(scale, ldi.z[i]); }
     double back(std::uint64_t i) const { return disparity(scale, back_at(ldi, i)); }
-    double image(std::uint64_t i) const { return disparity(scale, ldi.optical_z(i)); }
+    double image(std::uint64_t i) const { return disparity(scale, ldi.coc_z(i)); }
 };
 
 // A run of samples of a pixel that grows at its back.
@@ -28,7 +28,7 @@ class Run {
 public:
     Run(const Pixel &pixel, std::uint64_t first)
         : pixel_(pixel), front_(pixel.front(first)), extent_(front_ - pixel.back(first)),
-          images_(!pixel.ldi.optical.empty()) {
+          images_(!pixel.ldi.image_z.empty()) {
         if (images_) least_ = most_ = pixel.image(first);
     }
     void add(std::uint64_t i) {
@@ -116,13 +116,13 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     MergedSample merged = sample_at(p.ldi, first);
     merged.terms = terms;
     if (terms.size() == 1) return merged;
-    double shown = 0, inverse_z = 0, inverse_optical = 0, dx = 0, dy = 0, weight = 0;
+    double shown = 0, inverse_z = 0, inverse_image_z = 0, dx = 0, dy = 0, weight = 0;
     for (const Term &term : terms) {
         const MergedSample s = sample_at(p.ldi, term.index);
         const double share = std::max(term.coefficient * alpha_at(p.ldi, p.alpha, term.index), 1e-12);
         shown += share;
         inverse_z += share / s.z;
-        inverse_optical += share / s.optical;
+        inverse_image_z += share / s.image_z;
         dx += share * s.dx;
         dy += share * s.dy;
         weight += s.weight;
@@ -134,7 +134,7 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     merged.dx = float(dx / shown);
     merged.dy = float(dy / shown);
     merged.weight = float(weight);
-    merged.optical = float(shown / inverse_optical);
+    merged.image_z = float(shown / inverse_image_z);
     merged.solid = solid_of(p.ldi, p.alpha, terms);
     return merged;
 }

@@ -1,4 +1,4 @@
-// Reduces the samples of each pixel by disparity R F / z, so that the LDI can still be refocused. The disparities of images (Ldi::optical) have to agree too.
+// Reduces the samples of each pixel by disparity R F / z, so that the LDI can still be refocused. The disparities of images (Ldi::image_z) have to agree too.
 //
 // The samples of a cluster become one sample. Opaque samples within the tolerance are averaged by weight (they are one
 // surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples

@@ -99,7 +99,7 @@ std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &le
     for (std::size_t i = 0; i < c.size(); ++i) {
         const SampleRange samples = ldi.pixel(i);
         c[i] = float(circle_of_confusion(lens, samples.empty() ? std::numeric_limits<double>::infinity()
-                                                               : ldi.optical_z(samples.front())));
+                                                               : ldi.coc_z(samples.front())));
     }
     return c;
 }

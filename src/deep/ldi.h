@@ -49,7 +49,7 @@ struct Ldi {
     std::vector<float> weight; // view samples merged into this one, > 0; empty means 1
     // Planar depth of the image in a mirror or glass, in the unit of z. It gives the CoC, while z still decides
     // occlusion. Negative if the rays would meet behind the camera, never 0. Empty: equal to z.
-    std::vector<float> optical;
+    std::vector<float> image_z;
     // How far 1 / z falls, in 1 / scene units, through the solid behind a sample of half coverage or more: a depth
     // range that no view saw through (warp/continue_surfaces.h). 0 if unknown; empty: unknown everywhere.
     std::vector<float> solid;
@@ -61,7 +61,7 @@ struct Ldi {
         return {begin[i], begin[i + 1]};
     }
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
-    double optical_z(std::uint64_t i) const { return double(optical.empty() ? z[i] : optical[i]); }
+    double coc_z(std::uint64_t i) const { return double(image_z.empty() ? z[i] : image_z[i]); }
 };
 
 } // namespace sparselens

@@ -90,7 +90,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
 
 bool same_samples(const Ldi &a, const Ldi &b) {
     return a.windows == b.windows && a.begin == b.begin && a.z == b.z && a.z_back == b.z_back &&
-           a.dx == b.dx && a.dy == b.dy && a.optical == b.optical && a.solid == b.solid;
+           a.dx == b.dx && a.dy == b.dy && a.image_z == b.image_z && a.solid == b.solid;
 }
 
 void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
@@ -126,9 +126,9 @@ Ldi deep_merge(const std::vector<Ldi> &parts) {
     if (some_have(&Ldi::dx)) fill(out.dx, [](const Ldi &part) { return array_of(part.dx, 0); });
     if (some_have(&Ldi::dy)) fill(out.dy, [](const Ldi &part) { return array_of(part.dy, 0); });
     if (some_have(&Ldi::weight)) fill(out.weight, [](const Ldi &part) { return array_of(part.weight, 1); });
-    if (some_have(&Ldi::optical))
-        fill(out.optical,
-             [](const Ldi &part) { return Source{part.optical.empty() ? &part.z : &part.optical}; });
+    if (some_have(&Ldi::image_z))
+        fill(out.image_z,
+             [](const Ldi &part) { return Source{part.image_z.empty() ? &part.z : &part.image_z}; });
     if (some_have(&Ldi::solid)) fill(out.solid, [](const Ldi &part) { return array_of(part.solid, 0); });
     out.values.resize(out.channels.size());
     for (std::size_t k = 0; k < out.channels.size(); ++k)

@@ -15,7 +15,7 @@ namespace {
 template <typename Values, typename Picture>
 std::vector<Values *> list_arrays(Picture &ldi) {
     std::vector<Values *> arrays{&ldi.z,      &ldi.z_back,  &ldi.dx,   &ldi.dy,
-                                 &ldi.weight, &ldi.optical, &ldi.solid};
+                                 &ldi.weight, &ldi.image_z, &ldi.solid};
     for (auto &values : ldi.values) arrays.push_back(&values);
     return arrays;
 }

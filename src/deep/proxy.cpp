@@ -25,7 +25,7 @@ Ldi with_coverage(Ldi ldi) {
 // A sample of a large pixel, and how much of it the flattened picture shows.
 struct Seen {
     std::uint64_t index;
-    double z, optical; // of joined samples, the means
+    double z, image_z; // of joined samples, the means
     double shown;      // the transmittance in front of it
     double x, y;       // place, in small pixels from the middle of the small one
 };
@@ -34,7 +34,7 @@ struct Seen {
 void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
     struct Surface {
         std::uint32_t first;
-        double inverse_z = 0, inverse_optical = 0;
+        double inverse_z = 0, inverse_image_z = 0;
         int samples = 0;
     };
     thread_local std::vector<Surface> surfaces; // short, because most samples are alone and not listed here
@@ -49,13 +49,13 @@ void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) 
     for (const Seen &s : seen)
         if (const auto surface = surface_of(s); surface != surfaces.end()) {
             surface->inverse_z += 1 / s.z;
-            surface->inverse_optical += 1 / s.optical;
+            surface->inverse_image_z += 1 / s.image_z;
             ++surface->samples;
         }
     for (Seen &s : seen)
         if (const auto surface = surface_of(s); surface != surfaces.end()) {
             s.z = surface->samples / surface->inverse_z;
-            s.optical = surface->samples / surface->inverse_optical;
+            s.image_z = surface->samples / surface->inverse_image_z;
         }
 }
 
@@ -77,7 +77,7 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
             for_shares(ldi, alpha, ldi.pixel(ldi.windows.index(x, y)), [&](std::uint64_t i, double shown) {
                 const MergedSample s = sample_at(ldi, i);
-                seen.push_back({i, s.z, s.optical, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
+                seen.push_back({i, s.z, s.image_z, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
                                 (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
             });
         }
@@ -90,10 +90,10 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
 bool alike(const Seen &first, const Seen &s, const ProxyFor &by) {
     if (by.scale > 0)
         return by.scale / first.z - by.scale / s.z <= by.tolerance &&
-               std::abs(by.scale / first.optical - by.scale / s.optical) <= by.tolerance;
+               std::abs(by.scale / first.image_z - by.scale / s.image_z) <= by.tolerance;
     constexpr double surface_depth_ratio = 1.01, largest_image_difference = 0.05;
     const bool one_image =
-        s.optical == first.optical || std::abs(first.optical / s.optical - 1) <= largest_image_difference;
+        s.image_z == first.image_z || std::abs(first.image_z / s.image_z - 1) <= largest_image_difference;
     return s.z <= surface_depth_ratio * first.z && one_image;
 }
 
@@ -101,18 +101,18 @@ float offset(double sum, std::size_t count) { return float(std::clamp(sum / doub
 
 // The mean position and depth of some samples; the mean of depths is harmonic.
 struct PlaceSum {
-    double x = 0, y = 0, inverse_z = 0, inverse_optical = 0;
+    double x = 0, y = 0, inverse_z = 0, inverse_image_z = 0;
     std::size_t count = 0;
 
     void add(const Seen &s) {
         x += s.x, y += s.y;
-        inverse_z += 1 / s.z, inverse_optical += 1 / s.optical;
+        inverse_z += 1 / s.z, inverse_image_z += 1 / s.image_z;
         ++count;
     }
     void set(MergedSample &surface) const {
         surface.dx = offset(x, count), surface.dy = offset(y, count);
         surface.z = surface.z_back = float(double(count) / inverse_z);
-        surface.optical = float(double(count) / inverse_optical);
+        surface.image_z = float(double(count) / inverse_image_z);
     }
 };
 
@@ -230,7 +230,7 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLoo
     for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
         const Imath::V2d own(ldi.windows.pixel(pixel)), at = own + Imath::V2d(0.5);
         for (const std::uint64_t i : ldi.pixel(pixel)) {
-            const Imath::Box2d box = light.box(at, circle_of_confusion(lens, ldi.optical_z(i)));
+            const Imath::Box2d box = light.box(at, circle_of_confusion(lens, ldi.coc_z(i)));
             const Imath::V2d reach = box.size() / 2;
             if (std::max(reach.x, reach.y) < sharp && light.magnification() == 1) continue;
             const Imath::V2d whole(std::ceil(reach.x) + 1, std::ceil(reach.y) + 1); // pixels that it touches

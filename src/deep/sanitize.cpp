@@ -216,8 +216,8 @@ std::size_t repair_places(Ldi &ldi) {
     std::size_t bad = replace(ldi.dx, inside, clamped) + replace(ldi.dy, inside, clamped) +
                       replace(ldi.weight, is_weight, [](float) { return 1.0f; }) +
                       replace(ldi.solid, is_thickness, [](float) { return 0.0f; });
-    for (std::size_t i = 0; i < ldi.optical.size(); ++i)
-        if (!(std::abs(ldi.optical[i]) >= smallest_depth)) ldi.optical[i] = ldi.z[i], ++bad;
+    for (std::size_t i = 0; i < ldi.image_z.size(); ++i)
+        if (!(std::abs(ldi.image_z[i]) >= smallest_depth)) ldi.image_z[i] = ldi.z[i], ++bad;
     for (std::size_t i = 0; i < ldi.z_back.size(); ++i) {
         if (std::isnan(ldi.z_back[i])) ++bad;
         if (!(ldi.z_back[i] >= ldi.z[i])) ldi.z_back[i] = ldi.z[i];

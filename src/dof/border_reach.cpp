@@ -74,7 +74,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
         const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
         for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
             if (alpha != npos && ldi.values[alpha][i] < GatherTuning::border_counts) continue;
-            const double coc = circle_of_confusion(lens, ldi.optical_z(i));
+            const double coc = circle_of_confusion(lens, ldi.coc_z(i));
             const Imath::V2d spread = light.at(at, coc);
             if (x == display.min.x) left.see(spread.x + at.x - shown.x);
             if (x == display.max.x) right.see(spread.x + shown.x - at.x);

@@ -61,8 +61,8 @@ Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
         for (const float z : *depths)
             if (depths == &rows.z || std::isfinite(z))
                 found.add(lens, double(z)); // endless ones stay in front
-    for (const float optical : rows.optical)
-        found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));
+    for (const float image_z : rows.image_z)
+        found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(image_z))));
     for (std::size_t i = 0; i < rows.solid.size(); ++i)
         if (const double inverse_z = 1 / double(rows.z[i]) - double(rows.solid[i]); inverse_z > 0)
             found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, 1 / inverse_z)));

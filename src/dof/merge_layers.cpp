@@ -47,8 +47,8 @@ private:
         return near(ldi_.dx) && near(ldi_.dy) && one_image(first, i);
     }
     bool one_image(std::uint64_t first, std::uint64_t i) const {
-        return ldi_.optical.empty() ||
-               std::abs(scale_ / ldi_.optical[first] - scale_ / ldi_.optical[i]) <= tolerance_;
+        return ldi_.image_z.empty() ||
+               std::abs(scale_ / ldi_.image_z[first] - scale_ / ldi_.image_z[i]) <= tolerance_;
     }
     const Ldi &ldi_;
     std::size_t alpha_;
@@ -133,10 +133,10 @@ public:
         return backs;
     }
     std::vector<float> depths_of_images() const {
-        if (ldi_.optical.empty()) return {};
+        if (ldi_.image_z.empty()) return {};
         return for_runs(ldi_, runs_, [&](const Run &run) {
-            if (run.to - run.from == 1) return ldi_.optical[run.from];
-            return float(1 / mean(run, [&](std::uint64_t i) { return 1 / double(ldi_.optical[i]); }));
+            if (run.to - run.from == 1) return ldi_.image_z[run.from];
+            return float(1 / mean(run, [&](std::uint64_t i) { return 1 / double(ldi_.image_z[i]); }));
         });
     }
     std::vector<float> offsets(const std::vector<float> &offset) const {
@@ -209,8 +209,8 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
     out.z = merging.depths();
     out.z_back = merging.backs(out.z);
     used(ldi.z), used(ldi.z_back);
-    out.optical = merging.depths_of_images();
-    used(ldi.optical);
+    out.image_z = merging.depths_of_images();
+    used(ldi.image_z);
     out.solid = merging.solids();
     used(ldi.solid);
     out.dx = merging.offsets(ldi.dx);
@@ -264,7 +264,7 @@ Ldi at_shown_depths(Ldi ldi) {
             const auto farther = float(shown_depth(double(alpha_at(ldi, alpha, i))) * extent);
             ldi.z[i] += farther;
             ldi.z_back[i] = std::numeric_limits<float>::infinity();
-            if (!ldi.optical.empty()) ldi.optical[i] += farther;
+            if (!ldi.image_z.empty()) ldi.image_z[i] += farther;
         }
     });
     return ldi;

@@ -111,7 +111,7 @@ Ldi samples_from(const py::object &begin, const py::object &z, const py::object 
             .dx = {},
             .dy = {},
             .weight = {},
-            .optical = {},
+            .image_z = {},
             .solid = {},
             .values = {}};
     const std::size_t samples = ldi.samples();
@@ -130,7 +130,7 @@ Ldi samples_from(const py::object &begin, const py::object &z, const py::object 
     ldi.dy = optional("dy");
     if (ldi.dx.empty() != ldi.dy.empty()) throw UsageError("dx: must be given with dy, or neither");
     ldi.weight = optional("weight");
-    ldi.optical = optional("optical");
+    ldi.image_z = optional("optical");
     ldi.solid = optional("solid");
     if (!py::isinstance<py::dict>(channels)) wrong_type("channels", "a dict of names and arrays", channels);
     for (const auto &[key, array] : py::reinterpret_borrow<py::dict>(channels)) {

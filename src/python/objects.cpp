@@ -185,7 +185,7 @@ void bind_ldi(py::module_ &module) {
     samples("dx", &Ldi::dx, doc::Ldi::dx);
     samples("dy", &Ldi::dy, doc::Ldi::dy);
     samples("weight", &Ldi::weight, doc::Ldi::weight);
-    samples("optical", &Ldi::optical, doc::Ldi::optical);
+    samples("optical", &Ldi::image_z, doc::Ldi::optical);
     samples("solid", &Ldi::solid, doc::Ldi::solid);
     type.def_property_readonly(
             "channels", [](const LdiObject &in) { return py::tuple(py::cast(names_of(in.ldi.channels))); },

@@ -111,7 +111,7 @@ private:
     double depth_of(std::uint64_t i) const { return disparity(scale_, double(ldi_.z[i])); }
     bool covers(std::uint64_t i) const { return alpha_at(ldi_, alpha_, i) >= half_covered; }
     bool is_surface(std::uint64_t i) const {
-        return covers(i) && std::isfinite(ldi_.z[i]) && ldi_.optical_z(i) == double(ldi_.z[i]) &&
+        return covers(i) && std::isfinite(ldi_.z[i]) && ldi_.coc_z(i) == double(ldi_.z[i]) &&
                back_at(ldi_, i) == ldi_.z[i];
     }
     // The sample of a pixel that is nearest to a depth, if it shows the surface that has this depth beside it.
@@ -292,7 +292,7 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
         if (&view == &views[0]) { // the centre view; few pixels are kept here
             const Sight relief = relief_around(*view.samples, std::move(farthest_seen));
             solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
-                return s.optical == s.z && back(s) > thickness &&
+                return s.image_z == s.z && back(s) > thickness &&
                        double(relief.at(place).value_or(0)) > WarpTuning::solid_relief_px * step;
             });
         }

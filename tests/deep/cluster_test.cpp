@@ -272,7 +272,7 @@ Ldi mirror_of(std::initializer_list<double> images, double spacing) {
         for (const double image : images) {
             const double depth = 1 - spacing * double(samples.size());
             samples.push_back({1 / depth, {float(samples.size()), 1}});
-            samples.back().optical = 1 / image;
+            samples.back().image_z = 1 / image;
         }
         return samples;
     });
@@ -281,10 +281,10 @@ Ldi mirror_of(std::initializer_list<double> images, double spacing) {
 TEST(Cluster, UnlikeImagesStayApart) {
     const Ldi unlike = clustered(mirror_of({0.5, 0.8, 0.45}, 0.01), {.tolerance = 0.1}).ldi;
     ASSERT_EQ(unlike.samples(), 3u);
-    EXPECT_FLOAT_EQ(unlike.optical[1], 1 / 0.8f);
+    EXPECT_FLOAT_EQ(unlike.image_z[1], 1 / 0.8f);
     const Clustered alike = clustered(mirror_of({0.5, 0.44}, 0.01), {.tolerance = 0.1});
     ASSERT_EQ(alike.ldi.samples(), 1u);
-    EXPECT_NEAR(1 / alike.ldi.optical[0], 0.47, 1e-6);
+    EXPECT_NEAR(1 / alike.ldi.image_z[0], 0.47, 1e-6);
     EXPECT_NEAR(alike.largest_error, 0.06, 1e-6);
     const Clustered forced = clustered(mirror_of({-0.2, 0.4}, 0.01), {.layers = 1});
     ASSERT_EQ(forced.ldi.samples(), 1u);

@@ -88,12 +88,12 @@ TEST(DeepMerge, LayersHaveTheSameSamples) {
 TEST(DeepMerge, WhatHasNoImageLiesWhereItIs) {
     Ldi mirror = ldi_of({{{.z = 2}}});
     const Ldi wall = ldi_of({{{.z = 3}}});
-    mirror.optical = {7};
-    EXPECT_EQ(deep_merge({mirror, wall}).optical, (std::vector<float>{7, 3}));
-    EXPECT_TRUE(deep_merge({wall, wall}).optical.empty());
+    mirror.image_z = {7};
+    EXPECT_EQ(deep_merge({mirror, wall}).image_z, (std::vector<float>{7, 3}));
+    EXPECT_TRUE(deep_merge({wall, wall}).image_z.empty());
     Ldi shuffled = ldi_of({{{.z = 4}, {.z = 3}}, {{.z = 2, .colour = 0, .alpha = 0}, {.z = 5}}});
-    shuffled.optical = {40, 30, 20, 50};
-    EXPECT_EQ(tidy(shuffled).optical, (std::vector<float>{30, 40, 50}));
+    shuffled.image_z = {40, 30, 20, 50};
+    EXPECT_EQ(tidy(shuffled).image_z, (std::vector<float>{30, 40, 50}));
     EXPECT_FALSE(same_samples(mirror, ldi_of({{{.z = 2}}})));
 }
 

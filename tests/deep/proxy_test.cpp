@@ -136,10 +136,10 @@ TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
 }
 
 TEST(Proxy, UnlikeImagesStayApart) {
-    const auto samples = [](double optical) {
+    const auto samples = [](double image_z) {
         const Ldi ldi = make_ldi(windows_of_size(2, 2), {{"R"}, {"A"}}, [&](int x, int) {
             Sample s{x == 0 ? 2 : 2.001, {1, 1}};
-            s.optical = x == 0 ? 9 : optical;
+            s.image_z = x == 0 ? 9 : image_z;
             return std::vector<Sample>{s};
         });
         return proxy(ldi, 2).samples();

@@ -144,9 +144,9 @@ TEST(InvalidValues, AreSaidInOneLine) {
 
 TEST(InvalidValues, ImagesNeedADepthOnEitherSideOfTheCamera) {
     Ldi ldi = ldi_of({{{.z = 1}, {.z = 2}, {.z = 3}, {.z = 4}}});
-    ldi.optical = {-3, 0, nan, inf};
+    ldi.image_z = {-3, 0, nan, inf};
     EXPECT_EQ(sanitize(ldi, "ldi").places, 2u);
-    EXPECT_EQ(ldi.optical, (std::vector<float>{-3, 2, 3, inf}));
+    EXPECT_EQ(ldi.image_z, (std::vector<float>{-3, 2, 3, inf}));
 }
 
 } // namespace

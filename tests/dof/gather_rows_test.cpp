@@ -142,8 +142,8 @@ TEST_F(GatherRows, PerChannelAlphaIsTheSame) {
 }
 
 TEST_F(GatherRows, ImagesOfMirrorsAreTheSame) {
-    ldi.optical = ldi.z;
-    for (std::size_t i = 0; i < ldi.optical.size(); i += 3) ldi.optical[i] *= 1.5f;
+    ldi.image_z = ldi.z;
+    for (std::size_t i = 0; i < ldi.image_z.size(); i += 3) ldi.image_z[i] *= 1.5f;
     expect_same(window);
 }
 

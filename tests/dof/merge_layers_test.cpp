@@ -46,11 +46,11 @@ TEST(MergeLayers, LayersFartherApartStay) {
 
 TEST(MergeLayers, ImagesFartherApartStay) {
     Ldi ldi = ldi_of({{at(5, 0.5f), at(4.95, 0.5f)}});
-    ldi.optical = {1 / 2.0f, 1 / 2.5f};
-    EXPECT_EQ(merge_layers(ldi, 1, 0.25).optical, ldi.optical);
+    ldi.image_z = {1 / 2.0f, 1 / 2.5f};
+    EXPECT_EQ(merge_layers(ldi, 1, 0.25).image_z, ldi.image_z);
     const Ldi one = merge_layers(ldi, 1, 0.6);
     ASSERT_EQ(one.samples(), 1u);
-    EXPECT_NEAR(1 / one.optical_z(0), (0.5 * 2 + 0.25 * 2.5) / 0.75, 1e-6);
+    EXPECT_NEAR(1 / one.coc_z(0), (0.5 * 2 + 0.25 * 2.5) / 0.75, 1e-6);
 }
 
 TEST(MergeLayers, PositionsFartherApartStay) {

@@ -61,10 +61,10 @@ TEST(Volumes, StayVolumesWhoseDepthsAreChosenWhenTheyAreMergedAgain) {
 
 TEST(Volumes, ImagesInMirrorsMoveAsFar) {
     Ldi ldi = ldi_of({{{.z = 2, .alpha = 0.5f, .z_back = 4}}});
-    ldi.optical = {7};
+    ldi.image_z = {7};
     const Ldi moved = at_shown_depths(ldi);
     EXPECT_GT(moved.z[0], 2.5f);
-    EXPECT_FLOAT_EQ(moved.optical[0] - 7, moved.z[0] - 2);
+    EXPECT_FLOAT_EQ(moved.image_z[0] - 7, moved.z[0] - 2);
 }
 
 TEST(Volumes, BandsReachAsFarAsTheirBacks) {

@@ -153,7 +153,7 @@ TEST_F(LensDeviceTest, MirrorsAndGlassAreTheCpus) {
     for (const bool opaque : {true, false}) {
         Ldi ldi = surfaces(90, 60, opaque, 11);
         for (std::size_t i = 0; i < ldi.z.size(); ++i)
-            ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 0, 12) < 0.5 ? 1 : 1.7f));
+            ldi.image_z.push_back(ldi.z[i] * (random_unit(int(i), 0, 12) < 0.5 ? 1 : 1.7f));
         expect_same(ldi, {.lens_samples = 8});
         LensLooks looks;
         looks.aperture.spherical = 0.5;
@@ -176,8 +176,8 @@ TEST_F(LensDeviceTest, WhatIsSolidIsTheCpus) {
         looks.aperture.spherical = 0.5;
         looks.cat_eye = 0.9;
         expect_same(ldi, {.lens_samples = 8, .looks = looks});
-        ldi.optical = ldi.z;
-        for (std::size_t i = 0; i < ldi.z.size(); i += 3) ldi.optical[i] *= 1.7f;
+        ldi.image_z = ldi.z;
+        for (std::size_t i = 0; i < ldi.z.size(); i += 3) ldi.image_z[i] *= 1.7f;
         expect_same(ldi, {.lens_samples = 8});
     }
 }

@@ -53,10 +53,10 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
         for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
             for (const Sample &s : samples_at(x, y)) {
                 volumes |= s.z_back != 0;
-                images |= s.optical != 0;
+                images |= s.image_z != 0;
                 solids |= s.solid != 0;
                 ldi.solid.push_back(float(s.solid));
-                ldi.optical.push_back(float(s.optical == 0 ? s.z : s.optical));
+                ldi.image_z.push_back(float(s.image_z == 0 ? s.z : s.image_z));
                 ldi.z.push_back(float(s.z));
                 ldi.z_back.push_back(s.z_back == 0 ? float(s.z) : s.z_back);
                 ldi.dx.push_back(s.dx);
@@ -67,7 +67,7 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
             ldi.begin.push_back(ldi.z.size());
         }
     if (!volumes) ldi.z_back.clear();
-    if (!images) ldi.optical.clear();
+    if (!images) ldi.image_z.clear();
     if (!solids) ldi.solid.clear();
     return ldi;
 }

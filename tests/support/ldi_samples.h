@@ -15,7 +15,7 @@ struct Sample {
     float dx = 0, dy = 0;
     float z_back = 0; // 0: z
     float weight = 1;
-    double optical = 0; // 0: z
+    double image_z = 0; // 0: z
     double solid = 0;
 };
 

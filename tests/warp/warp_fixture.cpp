@@ -18,7 +18,7 @@ void expect_same_bits(const Ldi &a, const Ldi &b) {
     EXPECT_EQ(a.dx, b.dx);
     EXPECT_EQ(a.dy, b.dy);
     EXPECT_EQ(a.weight, b.weight);
-    EXPECT_EQ(a.optical, b.optical);
+    EXPECT_EQ(a.image_z, b.image_z);
     EXPECT_EQ(a.solid, b.solid);
     EXPECT_EQ(a.values, b.values);
 }

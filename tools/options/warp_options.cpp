@@ -53,12 +53,12 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "views that agree within noise or near focus; assume: average all (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
-    const std::map<std::string, bool> optical{{"on", true}, {"off", false}};
+    const std::map<std::string, bool> on_off{{"on", true}, {"off", false}};
     app.add_option("--optical", options.warp.find_images,
                    "Images in mirrors and glass, with --agreement test. on: estimate their depth, and blur "
                    "them by it; off: blur them by the depth of the surface (default: on)")
         ->type_name("on|off")
-        ->transform(words(optical));
+        ->transform(words(on_off));
     add_device_option(app, options.device, "Device for the warp");
     add_compression_option(app, options.compression, true);
     add_parameters(app, lens_parameters(), options.lens);

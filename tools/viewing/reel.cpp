@@ -163,7 +163,7 @@ ObjectNames object_names(const Imf::Header &header) {
 }
 
 DepthExtent depth_extent(const Ldi &ldi) {
-    const std::vector<float> &depths = ldi.optical.empty() ? ldi.z : ldi.optical;
+    const std::vector<float> &depths = ldi.image_z.empty() ? ldi.z : ldi.image_z;
     if (depths.empty()) return {};
     DepthExtent extent{HUGE_VAL, 0};
     for (const float z : depths) {

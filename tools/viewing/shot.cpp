@@ -270,7 +270,7 @@ Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i
     const auto rgb = find_rgb(ldi.channels);
     const std::size_t alpha = ldi.alpha();
     for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
-        const float z = ldi.z[i], seen_at = float(ldi.optical_z(i));
+        const float z = ldi.z[i], seen_at = float(ldi.coc_z(i));
         Json colour = Json::array();
         for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));
         Json sample{{"z", short_number(z)},

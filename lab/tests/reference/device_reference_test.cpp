@@ -43,7 +43,7 @@ TEST_F(DeviceReferenceTest, OfTheLensGather) {
         for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
             if (channel.name != "A") channel.name += "0";
         for (std::size_t i = 0; i < ldi.z.size() && c.images; ++i)
-            ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 1, c.stream) < 0.5 ? 1 : 1.7f));
+            ldi.image_z.push_back(ldi.z[i] * (random_unit(int(i), 1, c.stream) < 0.5 ? 1 : 1.7f));
         for (std::size_t i = 0; i < ldi.z.size() && c.solids; ++i)
             ldi.solid.push_back(float(2 * random_unit(int(i), 2, c.stream) / (lens.radius * lens.focal_px)));
         const LensGatherOptions by{.lens_samples = 16, .looks = c.looks, .device = device.get()};

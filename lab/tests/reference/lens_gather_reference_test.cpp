@@ -61,7 +61,7 @@ Ldi random_layers(const Case &c, const ThinLens &lens) {
                                      : (glows ? 0.2f : alpha) * float(0.5 + 0.5 * random(4 + k)));
             samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values, float(random(9) - 0.5),
                                float(random(10) - 0.5)});
-            if (random(12) < c.images) samples.back().optical = depth_of(lens, 14 * random(13) - 7);
+            if (random(12) < c.images) samples.back().image_z = depth_of(lens, 14 * random(13) - 7);
             if (random(14) < c.solids) samples.back().solid = 2 * random(15) / (lens.radius * lens.focal_px);
         }
         std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) { return a.z < b.z; });
@@ -151,7 +151,7 @@ TEST(LensGatherReferenceItself, ImagesMoveByTheirDepthAndHideByTheMirrors) {
         const Ldi ldi = make_ldi(windows_of_size(12, 1), {{"Y"}}, [&](int x, int) {
             if (x == 5) return std::vector<Sample>{{depth_of(lens, bar_coc), {100}}};
             Sample mirror{depth_of(lens, 1), {float(x)}};
-            mirror.optical = depth_of(lens, 3);
+            mirror.image_z = depth_of(lens, 3);
             return std::vector<Sample>{mirror};
         });
         return lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));

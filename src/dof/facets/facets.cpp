@@ -181,7 +181,7 @@ private:
         return sample;
     }
     bool shows_image(std::uint32_t sample) const {
-        return !ldi_.optical.empty() && ldi_.optical[sample] != ldi_.z[sample];
+        return !ldi_.image_z.empty() && ldi_.image_z[sample] != ldi_.z[sample];
     }
     void unite(std::uint32_t a, std::uint32_t b) {
         if (shows_image(a) || shows_image(b)) return;

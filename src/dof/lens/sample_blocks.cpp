@@ -16,11 +16,11 @@ namespace {
 PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
     const MergedSample place = sample_at(ldi, i);
     std::optional<float> surface_coc;
-    if (is_opaque(alpha) && !ldi.optical.empty())
+    if (is_opaque(alpha) && !ldi.image_z.empty())
         surface_coc = float(circle_of_confusion(lens, double(place.z)));
     return {float(x) + 0.5f + place.dx,
             float(y) + 0.5f + place.dy,
-            float(circle_of_confusion(lens, ldi.optical_z(i))),
+            float(circle_of_confusion(lens, ldi.coc_z(i))),
             float(disparity(lens, double(place.z))),
             alpha,
             std::uint32_t(i),
@@ -170,7 +170,7 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixe
     const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
         find_samples(ldi, lens, known, x, y, alpha, placed);
     };
-    return make_blocks(ldi.windows, count, place, !ldi.optical.empty());
+    return make_blocks(ldi.windows, count, place, !ldi.image_z.empty());
 }
 
 SamplePlaces::SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom) {
@@ -237,7 +237,7 @@ private:
         return std::max(1 / double(ldi_.z[i]) - 2 * double(ldi_.solid[i]), 0.0) * (ldi_.solid[i] > 0);
     }
     bool may_show(std::uint64_t i) const {
-        return is_opaque(alpha_at(ldi_, alpha_, i)) && (ldi_.optical.empty() || ldi_.optical[i] == ldi_.z[i]);
+        return is_opaque(alpha_at(ldi_, alpha_, i)) && (ldi_.image_z.empty() || ldi_.image_z[i] == ldi_.z[i]);
     }
     std::optional<Shown> shown_of(std::size_t pixel, std::uint64_t i) const {
         if (may_show(i)) return Shown{pixel, i};

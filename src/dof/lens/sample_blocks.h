@@ -59,7 +59,7 @@ struct BlockedSamples {
     // lies behind it at infinity is not known.
     LargeArray<float> x, y; // centre, pixels, relative to the data window's corner, y down
     LargeArray<float> coc;  // signed radius, pixels
-    // If an opaque sample shows an image (Ldi::optical), `coc` is the CoC of the image, by which its colour moves.
+    // If an opaque sample shows an image (Ldi::image_z), `coc` is the CoC of the image, by which its colour moves.
     // `surface_coc` is the CoC of the surface, which decides where the mirror is seen at all. Empty if there are no
     // images.
     LargeArray<float> surface_coc;

@@ -125,7 +125,7 @@ void Sharpener::measure_noise() {
 
 Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
     const Imath::V2d offset(double(place.dx), double(place.dy));
-    const double coc = circle_of_confusion(lens_, double(place.optical));
+    const double coc = circle_of_confusion(lens_, double(place.image_z));
     if (!looks_) return {Imath::V2d(coc), offset};
     const Imath::V2d p = Imath::V2d(ldi_.windows.data.min + Imath::V2i(x, y)) + Imath::V2d(0.5) + offset;
     const double bent = looks_->field.bent(coc + looks_->coc, p);

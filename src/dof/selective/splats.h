@@ -137,7 +137,7 @@ void SplatSource::for_each(std::size_t pixel, const Visit &visit) const {
     for (const std::uint64_t i : ldi_.pixel(pixel)) {
         const double alpha = alphas_ ? std::clamp(double(alphas_[i]), 0.0, 1.0) : 1.0;
         if (alpha <= 0) continue;
-        const double coc = circle_of_confusion(lens_, ldi_.optical_z(i));
+        const double coc = circle_of_confusion(lens_, ldi_.coc_z(i));
         const int bin = depth_bin(coc);
         const bool same_layer = last && kernels::joins_layer(bin, last->bin);
         if (same_layer && passed <= too_little) continue;

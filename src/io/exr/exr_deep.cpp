@@ -277,7 +277,7 @@ std::vector<StoredChannel> stored_channels(const Ldi &ldi, const Imf::Header &me
     add("ldi.dx", PixelType::half, ldi.dx);
     add("ldi.dy", PixelType::half, ldi.dy);
     add("ldi.weight", PixelType::half, ldi.weight);
-    add("ldi.optical", PixelType::float32, ldi.optical);
+    add("ldi.optical", PixelType::float32, ldi.image_z);
     add("ldi.solid", PixelType::half, ldi.solid);
     const std::vector<Channel> named = by_kept_names(ldi.channels, metadata);
     for (std::size_t k = 0; k < named.size(); ++k)

@@ -59,7 +59,7 @@ std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std
     if (lower_case(name) == lower_case(depth) + "back") return &ldi.z_back; // ZBack, depth.ZBack
     if (name == "ldi.dx") return &ldi.dx;
     if (name == "ldi.dy") return &ldi.dy;
-    if (name == "ldi.optical") return &ldi.optical;
+    if (name == "ldi.optical") return &ldi.image_z;
     if (name == "ldi.solid") return &ldi.solid;
     return name == "ldi.weight" ? &ldi.weight : nullptr;
 }

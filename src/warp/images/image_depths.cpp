@@ -269,7 +269,7 @@ private:
         ldi_.weight[i] = float(count);
         ldi_.z[i] = seen[0].view->z(seen[0].index);
         if (!ldi_.z_back.empty()) ldi_.z_back[i] = ldi_.z[i];
-        ldi_.optical[i] = float(depth_at_disparity(scale_, depth));
+        ldi_.image_z[i] = float(depth_at_disparity(scale_, depth));
         for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
             double sum = 0;
             const bool light = is_light(ldi_.channels[k]) && k != alpha_;
@@ -295,14 +295,14 @@ void show_images(std::span<const PlacedView> views, double scale, int across,
     matched.reserve(views.size());
     for (const PlacedView &view : views) matched.emplace_back(view, scale);
     const ImageSweep sweep(matched, kernels::motion_unit(across));
-    ldi.optical = ldi.z;
+    ldi.image_z = ldi.z;
     const Shower shower(matched, sweep, scale, ldi);
     std::atomic<bool> shown = false;
     find_image_depths(sweep, ldi.windows.data, blocks,
                       [&](const Imath::Box2i &block, const ImageDepthAt &depth_at) {
                           if (shower.show(block, depth_at)) shown = true;
                       });
-    if (!shown) std::vector<float>().swap(ldi.optical);
+    if (!shown) std::vector<float>().swap(ldi.image_z);
 }
 
 } // namespace sparselens

@@ -33,7 +33,7 @@ void find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
 // `ldi` is made of `views`, the centre view first; where the centre view shows one sample, it is the front sample of
 // the LDI's pixel. `scale`: R F. `across`: pixels, across and down, that become one pixel of the picture. `differ`, by
 // blocks of the LDI's data window: where views differ by more than noise if the picture lies on the
-// surface. Ldi::optical stays empty if no image is found.
+// surface. Ldi::image_z stays empty if no image is found.
 void show_images(std::span<const PlacedView> views, double scale, int across,
                  std::span<const Disagreement> differ, Ldi &ldi);
 

@@ -19,7 +19,7 @@ Ldi surface(const std::function<double(int x)> &depth, bool shows_images = false
     windows.data = Imath::Box2i({across, 0}, {3 * across - 1, across - 1});
     return make_ldi(windows, {{"Y"}, {"A"}}, [&](int x, int) {
         Sample s{lens.radius * lens.focal_px / depth(x), {1, 1}};
-        if (shows_images) s.optical = 2 * s.z;
+        if (shows_images) s.image_z = 2 * s.z;
         return std::vector<Sample>{s};
     });
 }

@@ -228,8 +228,8 @@ const std::vector<Beside> beside_cells{
     {"images of mirrors",
      {},
      [](Ldi &ldi) {
-         ldi.optical = ldi.z;
-         for (float &z : ldi.optical) // the wall's
+         ldi.image_z = ldi.z;
+         for (float &z : ldi.image_z) // the wall's
              if (circle_of_confusion(lens, double(z)) > 0) z = float(depth_of(lens, 50));
      }},
     {"solids",

@@ -22,8 +22,8 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
     Windows windows = windows_of_size(45, 21);
     windows.data = {{-13, 4}, {31, 24}};
     Ldi ldi = random_surfaces(windows, lens, false, 1);
-    ldi.optical = ldi.z;
-    for (std::size_t i = 0; i < ldi.samples(); i += 3) ldi.optical[i] = 1 / (0.3f - 0.1f * float(i % 5));
+    ldi.image_z = ldi.z;
+    for (std::size_t i = 0; i < ldi.samples(); i += 3) ldi.image_z[i] = 1 / (0.3f - 0.1f * float(i % 5));
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     std::vector<int> pixel_of(ldi.samples());
     for (std::size_t p = 0; p < windows.pixels(); ++p)
@@ -35,7 +35,7 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
         EXPECT_TRUE(seen.insert(s).second);
         EXPECT_FLOAT_EQ(samples.x[i], float(pixel_of[s] % 45) + 0.5f + ldi.dx[s]);
         EXPECT_FLOAT_EQ(samples.y[i], float(pixel_of[s] / 45) + 0.5f + ldi.dy[s]);
-        EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, ldi.optical_z(s))));
+        EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, ldi.coc_z(s))));
         EXPECT_FLOAT_EQ(samples.depth(i), float(disparity(lens, double(ldi.z[s]))));
         EXPECT_EQ(samples.alpha[i], ldi.values[ldi.alpha()][s]);
     }

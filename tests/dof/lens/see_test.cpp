@@ -109,7 +109,7 @@ TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
     const TileFixture tile(
         [](int, int) {
             Sample sample = opaque_at(0);
-            sample.optical = depth_of(TileFixture::lens, 6);
+            sample.image_z = depth_of(TileFixture::lens, 6);
             return Samples{sample};
         },
         {{.5f, 0, 0, 0, 1}});

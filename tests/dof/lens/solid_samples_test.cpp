@@ -93,7 +93,7 @@ TEST(SolidSamples, MirrorsAreNone) {
     const auto mirror = [](int x, int y) {
         Sample sample = solid(opaque_at(-4), 2);
         if (x != 3 || y != 4) return Samples{};
-        sample.optical = depth_of(lens, 3);
+        sample.image_z = depth_of(lens, 3);
         return Samples{sample};
     };
     EXPECT_EQ(shown(mirror), std::nullopt);

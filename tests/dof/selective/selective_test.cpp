@@ -59,11 +59,11 @@ TEST(Selective, PlanesAreConvolvedWithTheirDiscs) {
 }
 
 TEST(Selective, ImagesAreBlurredByTheirOwnDepth) {
-    const auto picture = [](double z, double optical) {
+    const auto picture = [](double z, double image_z) {
         return gather(make_ldi(windows_of_size(60, 40), grey,
                                [&](int x, int y) {
                                    Sample s{depth_of(lens, z), {float(random_unit(x, y, 1))}};
-                                   s.optical = optical == 0 ? 0 : depth_of(lens, optical);
+                                   s.image_z = image_z == 0 ? 0 : depth_of(lens, image_z);
                                    return std::vector<Sample>{s};
                                }),
                       lens);

@@ -57,7 +57,7 @@ void expect_equal(const Ldi &a, const Ldi &b) {
     EXPECT_EQ(a.dx, b.dx);
     EXPECT_EQ(a.dy, b.dy);
     EXPECT_EQ(a.weight, b.weight);
-    EXPECT_EQ(a.optical, b.optical);
+    EXPECT_EQ(a.image_z, b.image_z);
     EXPECT_EQ(a.solid, b.solid);
     EXPECT_EQ(a.values, b.values);
 }
@@ -105,7 +105,7 @@ TEST_F(ExrDeep, WithoutOffsetsAndWeightsThereAreNone) {
 
 TEST_F(ExrDeep, DepthsOfImagesAreFloats) {
     Ldi ldi = ldi_of({{{.z = 2}}, {{.z = 2}, {.z = 3}}});
-    ldi.optical = {1234.567f, -8.001f, INFINITY};
+    ldi.image_z = {1234.567f, -8.001f, INFINITY};
     const LdiFile read = round_trip(ldi);
     expect_equal(read.ldi, ldi);
     ASSERT_NE(read.header.channels().findChannel("ldi.optical"), nullptr);

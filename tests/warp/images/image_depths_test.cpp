@@ -63,9 +63,9 @@ Shares shares(const Ldi &ldi, double image_z, double within) {
     for (int y = border; y < window.height() - border; ++y)
         for (int x = border; x < window.width() - border; ++x, ++pixels) {
             const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
-            if (ldi.optical.empty() || ldi.optical[i] == ldi.z[i]) continue;
+            if (ldi.image_z.empty() || ldi.image_z[i] == ldi.z[i]) continue;
             shares.found += 1;
-            shares.right += std::abs(scale / ldi.optical_z(i) - scale / image_z) < within;
+            shares.right += std::abs(scale / ldi.coc_z(i) - scale / image_z) < within;
         }
     return {shares.found / pixels, shares.right / pixels};
 }
@@ -101,10 +101,10 @@ TEST(Images, DepthsBehindTheMirrorBeforeItAndBehindTheCamera) {
 }
 
 TEST(Images, SurfacesHaveNone) {
-    EXPECT_TRUE(warped(mirror(wall_z)).optical.empty());
-    EXPECT_TRUE(warped(mirror(wall_z, waves, 0.2f)).optical.empty());
-    EXPECT_TRUE(warped(mirror(wall_z, grey, 0.3f)).optical.empty());
-    EXPECT_TRUE(warped(mirror(6), false).optical.empty());
+    EXPECT_TRUE(warped(mirror(wall_z)).image_z.empty());
+    EXPECT_TRUE(warped(mirror(wall_z, waves, 0.2f)).image_z.empty());
+    EXPECT_TRUE(warped(mirror(wall_z, grey, 0.3f)).image_z.empty());
+    EXPECT_TRUE(warped(mirror(6), false).image_z.empty());
 }
 
 // An image 0.4 pixels of disparity behind the mirror is searched if two of these pixels make a pixel of the
@@ -139,12 +139,12 @@ TEST(Images, ReachTheEdgesOfASteepMirror) {
         });
     });
     const Ldi ldi = warped(views);
-    ASSERT_FALSE(ldi.optical.empty());
+    ASSERT_FALSE(ldi.image_z.empty());
     int pixels = 0, right = 0;
     for (int y = 12; y < window.height() - 12; ++y)
         for (int x = left; x < end; ++x, ++pixels) {
             const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
-            right += std::abs(scale / ldi.optical_z(i) - scale / image_z) < 0.1;
+            right += std::abs(scale / ldi.coc_z(i) - scale / image_z) < 0.1;
         }
     EXPECT_EQ(right, pixels);
 }
@@ -183,7 +183,7 @@ TEST(Images, TwoViewsAreEnoughAndTheirOrderDoesNotMatter) {
     std::swap(views[1], views[4]);
     std::swap(views[2], views[3]);
     const Ldi other = warped(views);
-    EXPECT_EQ(ldi.optical, other.optical);
+    EXPECT_EQ(ldi.image_z, other.image_z);
     EXPECT_EQ(ldi.values, other.values);
     EXPECT_GT(shares(warped({mirror(6)[0], mirror(6)[1]}), 6, 0.01).right, 0.9);
 }

@@ -45,7 +45,7 @@ Imath::V2d Border::reach(const Imath::V2i &at) const {
         const Imath::V2d reach = light_.at(middle, circle_of_confusion(lens_, z));
         most = {std::max(most.x, reach.x), std::max(most.y, reach.y)};
     };
-    for (const std::uint64_t i : samples(at)) add(ldi_.optical_z(i));
+    for (const std::uint64_t i : samples(at)) add(ldi_.coc_z(i));
     if (!closed(samples(at))) add(sky);
     return most;
 }
