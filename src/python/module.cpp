@@ -121,35 +121,35 @@ namespace sparselens::python {
 namespace {
 
 // The request that the keywords make.
-struct Asked : PictureRequest {
+struct GatherArguments : PictureRequest {
     py::object keep_holdout = {}, progress = {}; // the former keeps `opened_holdout` alive
 };
 
-Asked asked_by(const py::kwargs &given) {
+GatherArguments arguments_from(const py::kwargs &given) {
     Keywords keywords("gather", given);
-    Asked asked;
-    asked.keep_holdout = keywords.take("holdout");
-    if (!asked.keep_holdout.is_none())
-        asked.opened_holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
-    keywords.parameters<PictureRequest>(gather_parameters(), asked);
-    keywords.parameters(look_parameters(), asked.looks);
-    keywords.parameters(window_parameters(), asked.windows);
-    asked.lens = lens_values(keywords);
-    asked.progress = keywords.take("progress");
+    GatherArguments arguments;
+    arguments.keep_holdout = keywords.take("holdout");
+    if (!arguments.keep_holdout.is_none())
+        arguments.opened_holdout = &argument<OpenedLdi>(arguments.keep_holdout, "holdout", "an Ldi");
+    keywords.parameters<PictureRequest>(gather_parameters(), arguments);
+    keywords.parameters(look_parameters(), arguments.looks);
+    keywords.parameters(window_parameters(), arguments.windows);
+    arguments.lens = lens_values(keywords);
+    arguments.progress = keywords.take("progress");
     keywords.done();
-    check_method(asked, [&](const std::string &parameter) { return keywords.is_given(parameter); });
-    return asked;
+    check_method(arguments, [&](const std::string &parameter) { return keywords.is_given(parameter); });
+    return arguments;
 }
 
 } // namespace
 
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
-    const Asked asked = asked_by(given);
+    const GatherArguments arguments = arguments_from(given);
     const std::vector<const OpenedLdi *> in =
         several<OpenedLdi>(ldi, "ldi", "an Ldi, or a sequence of the moments of a shutter");
     return told_job<PictureObject>(
-        asked.progress, [&](Progress &progress, const Tell &tell) -> PictureObject {
-            TakenPicture made = take_moments(in, asked, {progress, tell, &gather_device()});
+        arguments.progress, [&](Progress &progress, const Tell &tell) -> PictureObject {
+            TakenPicture made = take_moments(in, arguments, {progress, tell, &gather_device()});
             return {std::move(made.image), std::move(made.header)};
         });
 }

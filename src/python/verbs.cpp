@@ -283,23 +283,23 @@ void bind_verbs(py::module_ &module) {
 
 namespace {
 
-struct Asked : MatchRequest {
+struct MatchArguments : MatchRequest {
     py::object progress = {};
 };
 
-Asked asked_by(const py::kwargs &given) {
+MatchArguments arguments_from(const py::kwargs &given) {
     Keywords keywords("match", given);
-    Asked asked;
-    asked.region = keywords.box("region");
-    asked.fit =
+    MatchArguments arguments;
+    arguments.region = keywords.box("region");
+    arguments.fit =
         keywords
             .word<MatchFit>(
                 "fit", {{"both", MatchFit::both}, {"focus", MatchFit::focus}, {"fstop", MatchFit::fstop}})
             .value_or(MatchFit::both);
-    asked.lens = lens_values(keywords);
-    asked.progress = keywords.take("progress");
+    arguments.lens = lens_values(keywords);
+    arguments.progress = keywords.take("progress");
     keywords.done();
-    return asked;
+    return arguments;
 }
 
 // The LDI of each plate: one for all, or one for each.
@@ -337,10 +337,10 @@ py::dict dict_of(const MatchedLens &lens, Image fit) {
 py::object match(const py::object &ldi, const py::object &plate, const py::kwargs &given) {
     const auto plates = several<PictureObject>(plate, "plate", "a Picture, or a sequence of them");
     const std::vector<const LdiObject *> ldis = ldis_for(ldi, plates.size());
-    const Asked asked = asked_by(given);
+    const MatchArguments arguments = arguments_from(given);
     std::vector<Image> fits;
-    MatchedFrames found = job<MatchedFrames>(asked.progress, [&](Progress &progress) {
-        FrameMatcher matcher(asked);
+    MatchedFrames found = job<MatchedFrames>(arguments.progress, [&](Progress &progress) {
+        FrameMatcher matcher(arguments);
         for (std::size_t i = 0; i < plates.size(); ++i)
             fits.push_back(matcher.match(*ldis[i], plates[i]->image, fmt::format("plate[{}]", i), progress));
         return matcher.smooth();

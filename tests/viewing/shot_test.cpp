@@ -2,7 +2,7 @@
 #include "support/ldi_samples.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 #include "viewing/reel.h"
 #include "viewing/shot.h"
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 // may also be one of share/lenses.
 #pragma once
 
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 
 #include <nlohmann/json_fwd.hpp>
 

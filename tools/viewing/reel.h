@@ -6,7 +6,7 @@
 #include "io/display/colour.h"
 #include "io/open_ldi.h"
 #include "options/gather_options.h"
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 
 #include <condition_variable>
 #include <cstddef>

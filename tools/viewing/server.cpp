@@ -41,24 +41,24 @@ HttpAnswer page_answer() {
 
 struct Route {
     const char *type;
-    std::function<std::optional<std::string>(const Asked &)> answer;
+    std::function<std::optional<std::string>(const PageRequest &)> answer;
 };
 using Routes = std::map<std::string, Route>; // by path
 
 Routes routes_of(Viewer &viewer) {
     constexpr const char *json = "application/json", *bytes = "application/octet-stream";
-    return {{"/facts", {json, [&](const Asked &asked) { return viewer.facts(asked); }}},
-            {"/picture", {bytes, [&](const Asked &asked) { return viewer.picture(asked); }}},
-            {"/pieces", {bytes, [&](const Asked &asked) { return viewer.pieces(asked); }}},
-            {"/reference", {bytes, [&](const Asked &asked) { return viewer.reference(asked); }}},
-            {"/plate", {bytes, [&](const Asked &asked) { return viewer.plate(asked); }}},
-            {"/rendered", {bytes, [&](const Asked &asked) { return viewer.rendered(asked); }}},
-            {"/objects", {bytes, [&](const Asked &asked) { return viewer.objects(asked); }}},
-            {"/samples", {json, [&](const Asked &asked) { return viewer.samples(asked); }}},
-            {"/progress", {json, [&](const Asked &asked) { return viewer.progress(asked); }}},
-            {"/commands", {json, [&](const Asked &asked) { return viewer.commands(asked); }}},
-            {"/match", {json, [&](const Asked &asked) { return viewer.match(asked); }}},
-            {"/save", {json, [&](const Asked &asked) { return viewer.save(asked); }}}};
+    return {{"/facts", {json, [&](const PageRequest &wanted) { return viewer.facts(wanted); }}},
+            {"/picture", {bytes, [&](const PageRequest &wanted) { return viewer.picture(wanted); }}},
+            {"/pieces", {bytes, [&](const PageRequest &wanted) { return viewer.pieces(wanted); }}},
+            {"/reference", {bytes, [&](const PageRequest &wanted) { return viewer.reference(wanted); }}},
+            {"/plate", {bytes, [&](const PageRequest &wanted) { return viewer.plate(wanted); }}},
+            {"/rendered", {bytes, [&](const PageRequest &wanted) { return viewer.rendered(wanted); }}},
+            {"/objects", {bytes, [&](const PageRequest &wanted) { return viewer.objects(wanted); }}},
+            {"/samples", {json, [&](const PageRequest &wanted) { return viewer.samples(wanted); }}},
+            {"/progress", {json, [&](const PageRequest &wanted) { return viewer.progress(wanted); }}},
+            {"/commands", {json, [&](const PageRequest &wanted) { return viewer.commands(wanted); }}},
+            {"/match", {json, [&](const PageRequest &wanted) { return viewer.match(wanted); }}},
+            {"/save", {json, [&](const PageRequest &wanted) { return viewer.save(wanted); }}}};
 }
 
 HttpAnswer refusal(int status, const std::string &why) { return {.status = status, .body = why + "\n"}; }
@@ -69,7 +69,7 @@ HttpAnswer answer_to(const HttpRequest &request, const Routes &routes) {
     if (request.method != "POST" || route == routes.end())
         return refusal(404, "there is nothing of that name");
     try {
-        if (auto said = route->second.answer(parse_asked(request.body)))
+        if (auto said = route->second.answer(parse_page_request(request.body)))
             return {.type = route->second.type, .body = std::move(*said)};
         return refusal(409, "the page has asked for something newer");
     } catch (const std::exception &) {

@@ -7,7 +7,7 @@
 #include "harness/tool.h"
 #include "io/display/shown_picture.h"
 #include "options/gather_options.h"
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 #include "viewing/reel.h"
 
 #include <nlohmann/json.hpp>

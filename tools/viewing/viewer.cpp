@@ -86,11 +86,11 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
         throw Error(options.save + ": is not a folder (--save)");
 }
 
-std::size_t Viewer::frame_of(const Asked &asked) const {
-    if (!asked.frame) return 0;
+std::size_t Viewer::frame_of(const PageRequest &wanted) const {
+    if (!wanted.frame) return 0;
     for (std::size_t i = 0; frames_.is_range() && i < frames_.size(); ++i)
-        if (frames_.number(i) == *asked.frame) return i;
-    throw UsageError(fmt::format("the request: there is no frame {}", *asked.frame));
+        if (frames_.number(i) == *wanted.frame) return i;
+    throw UsageError(fmt::format("the request: there is no frame {}", *wanted.frame));
 }
 
 Words Viewer::words_of_frame(std::size_t i) const {
@@ -99,16 +99,16 @@ Words Viewer::words_of_frame(std::size_t i) const {
     return words;
 }
 
-Words Viewer::words_of(const Asked &asked) const {
-    return words_with(words_of_frame(frame_of(asked)), asked.settings, options_.presets);
+Words Viewer::words_of(const PageRequest &wanted) const {
+    return words_with(words_of_frame(frame_of(wanted)), wanted.settings, options_.presets);
 }
 
-GatherCommand Viewer::command_of_frame(const Asked &asked) const {
-    return command_of(words_of_frame(frame_of(asked)));
+GatherCommand Viewer::command_of_frame(const PageRequest &wanted) const {
+    return command_of(words_of_frame(frame_of(wanted)));
 }
 
-std::string Viewer::facts(const Asked &asked) {
-    const GatherCommand command = command_of_frame(asked);
+std::string Viewer::facts(const PageRequest &wanted) {
+    const GatherCommand command = command_of_frame(wanted);
     const Reel::Held frame = shot_.frame(command);
     const Windows &windows = frame->in.ldi.windows;
     const Imath::Box2i display = reduced(windows.display, frame->across);
@@ -154,17 +154,17 @@ std::shared_ptr<const ShotPicture> Viewer::taken(const Words &words, const Gathe
     return picture;
 }
 
-std::string Viewer::answer(const Words &words, const Asked &asked, Progress &progress) {
+std::string Viewer::answer(const Words &words, const PageRequest &wanted, Progress &progress) {
     const auto begun = std::chrono::steady_clock::now();
     const GatherCommand command = command_of(words);
     const Reel::Held frame = shot_.frame(command);
     const TileWatch watch{
-        asked.pixel.value_or(Imath::V2i(0)),
-        [&](const Image &picture, const Imath::Box2i &tile) { add_piece(asked, *frame, picture, tile); }};
-    const Pieces::AtWork at_work(pieces_, asked.page);
-    const auto picture = taken(words, command, progress, asked.pixel ? &watch : nullptr);
+        wanted.pixel.value_or(Imath::V2i(0)),
+        [&](const Image &picture, const Imath::Box2i &tile) { add_piece(wanted, *frame, picture, tile); }};
+    const Pieces::AtWork at_work(pieces_, wanted.page);
+    const auto picture = taken(words, command, progress, wanted.pixel ? &watch : nullptr);
     progress.may_end();
-    const ShownPixels pixels = Shot::displayed(picture->image, asked.exposure, *frame);
+    const ShownPixels pixels = Shot::displayed(picture->image, wanted.exposure, *frame);
     Json said = size_of(pixels);
     said["lens"] = lens_facts(*picture);
     said["milliseconds"] =
@@ -173,7 +173,7 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
 }
 
 // Adds the part of the tile that is displayed.
-void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
+void Viewer::add_piece(const PageRequest &wanted, const ShotFrame &frame, const Image &picture,
                        const Imath::Box2i &tile) {
     const Imath::Box2i &display = picture.windows.display;
     const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
@@ -181,13 +181,13 @@ void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &
     if (box.isEmpty()) return;
     Image piece = crop(picture, box);
     piece.windows.display = box;
-    pieces_.add({box.min, Shot::displayed(std::move(piece), asked.exposure, frame)});
+    pieces_.add({box.min, Shot::displayed(std::move(piece), wanted.exposure, frame)});
 }
 
-std::string Viewer::pieces(const Asked &asked) {
+std::string Viewer::pieces(const PageRequest &wanted) {
     Json said{{"pieces", Json::array()}};
     std::vector<std::uint8_t> bytes;
-    for (const Piece &piece : pieces_.take(asked.page)) {
+    for (const Piece &piece : pieces_.take(wanted.page)) {
         Json place = size_of(piece.pixels);
         place.update({{"x", piece.first.x}, {"y", piece.first.y}});
         said["pieces"].push_back(place);
@@ -196,42 +196,44 @@ std::string Viewer::pieces(const Asked &asked) {
     return with_bytes(said, bytes);
 }
 
-std::optional<std::string> Viewer::picture(const Asked &asked) {
-    const Words words = words_of(asked);
+std::optional<std::string> Viewer::picture(const PageRequest &wanted) {
+    const Words words = words_of(wanted);
     command_of(words); // reports errors without waiting
-    return studio_.make(asked.page,
-                        [this, words, asked](Progress &progress) { return answer(words, asked, progress); });
+    return studio_.make(
+        wanted.page, [this, words, wanted](Progress &progress) { return answer(words, wanted, progress); });
 }
 
-std::string Viewer::file_of(const Asked &asked, const char *option) const {
-    const std::string path = value_of(option, frames_.words(frame_of(asked)));
+std::string Viewer::file_of(const PageRequest &wanted, const char *option) const {
+    const std::string path = value_of(option, frames_.words(frame_of(wanted)));
     if (path.empty())
         throw UsageError(fmt::format("there is no {}: start dof-view with {}", option + 2, option));
     return path;
 }
 
-std::string Viewer::beside(const Asked &asked, const char *option, KeptFile &file) {
-    const std::string path = file_of(asked, option);
-    const Reel::Held frame = shot_.frame(command_of_frame(asked));
+std::string Viewer::beside(const PageRequest &wanted, const char *option, KeptFile &file) {
+    const std::string path = file_of(wanted, option);
+    const Reel::Held frame = shot_.frame(command_of_frame(wanted));
     return file.with(path, [&](const Image &image) {
-        const ShownPixels pixels = Shot::displayed(image, asked.exposure, *frame);
+        const ShownPixels pixels = Shot::displayed(image, wanted.exposure, *frame);
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
 
-std::optional<std::string> Viewer::reference(const Asked &asked) {
-    return beside(asked, "--reference", reference_);
+std::optional<std::string> Viewer::reference(const PageRequest &wanted) {
+    return beside(wanted, "--reference", reference_);
 }
-std::optional<std::string> Viewer::plate(const Asked &asked) { return beside(asked, "--plate", plate_); }
+std::optional<std::string> Viewer::plate(const PageRequest &wanted) {
+    return beside(wanted, "--plate", plate_);
+}
 
-std::optional<std::string> Viewer::match(const Asked &asked) {
-    const std::string path = file_of(asked, "--plate");
-    const GatherCommand shot = command_of_frame(asked), shown = command_of(words_of(asked));
-    return studio_.make(asked.page + "/match", [=, this](Progress &progress) {
+std::optional<std::string> Viewer::match(const PageRequest &wanted) {
+    const std::string path = file_of(wanted, "--plate");
+    const GatherCommand shot = command_of_frame(wanted), shown = command_of(words_of(wanted));
+    return studio_.make(wanted.page + "/match", [=, this](Progress &progress) {
         const Reel::Held frame = shot_.frame(shot);
         OpenedLdi in = frame->unpacked();
         in.camera.supersample = frame->across;
-        const MatchRequest request{.region = asked.region, .lens = shot.lens, .looks = shown.looks};
+        const MatchRequest request{.region = wanted.region, .lens = shot.lens, .looks = shown.looks};
         const MatchedLens lens = plate_.with(
             path, [&](const Image &plate) { return match_lens(in, plate, path, request, progress); });
         if (!lens.doubt.empty()) throw Error(path + ": " + lens.doubt);
@@ -239,31 +241,31 @@ std::optional<std::string> Viewer::match(const Asked &asked) {
     });
 }
 
-std::optional<std::string> Viewer::rendered(const Asked &asked) {
-    Asked sharp = asked;
+std::optional<std::string> Viewer::rendered(const PageRequest &wanted) {
+    PageRequest sharp = wanted;
     sharp.settings = {{"lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
-    return studio_.make(asked.page + "/rendered", [this, command, asked](Progress &progress) {
+    return studio_.make(wanted.page + "/rendered", [this, command, wanted](Progress &progress) {
         const ShownPixels pixels = Shot::displayed(shot_.taken(command, tool_, progress).image,
-                                                   asked.exposure, *shot_.frame(command));
+                                                   wanted.exposure, *shot_.frame(command));
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
 
-std::string Viewer::objects(const Asked &asked) {
-    const ObjectMap map = object_map(*shot_.frame(command_of_frame(asked)));
+std::string Viewer::objects(const PageRequest &wanted) {
+    const ObjectMap map = object_map(*shot_.frame(command_of_frame(wanted)));
     return with_bytes(map.said, map.numbers);
 }
 
-std::string Viewer::samples(const Asked &asked) {
-    if (!asked.pixel) throw UsageError("the request: it says no pixel");
-    const GatherCommand command = command_of(words_of(asked));
+std::string Viewer::samples(const PageRequest &wanted) {
+    if (!wanted.pixel) throw UsageError("the request: it says no pixel");
+    const GatherCommand command = command_of(words_of(wanted));
     const Reel::Held frame = shot_.frame(command);
-    Json said{{"samples", sample_facts(*frame, frame->lens(command), *asked.pixel)}};
+    Json said{{"samples", sample_facts(*frame, frame->lens(command), *wanted.pixel)}};
     const std::lock_guard lock(last_mutex_);
     if (last_ && std::ranges::find(last_->words, command.input) != last_->words.end()) {
         const Image &image = last_->picture->image;
-        const Imath::V2i at = reduced({*asked.pixel, *asked.pixel}, last_->proxy).min;
+        const Imath::V2i at = reduced({*wanted.pixel, *wanted.pixel}, last_->proxy).min;
         if (image.windows.data.intersects(at))
             for (std::size_t k = 0; k < image.channels.size(); ++k)
                 said["value"][image.channels[k].name] = json_number(double(image.at(k, at.x, at.y)));
@@ -271,33 +273,33 @@ std::string Viewer::samples(const Asked &asked) {
     return said.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string Viewer::progress(const Asked &asked) const {
+std::string Viewer::progress(const PageRequest &wanted) const {
     Json said{{"finished", studio_.finished()}, {"held", shot_.reel().held()}};
-    if (const auto state = studio_.state(asked.page))
+    if (const auto state = studio_.state(wanted.page))
         said.update({{"stage", state->stage}, {"percent", state->percent}});
     return said.dump();
 }
 
-std::string Viewer::commands(const Asked &asked) const {
-    const std::string ending = "." + asked.format;
-    const std::string input = command_of(words_of(asked)).input, output = output_name(input, ending);
-    const Words words = words_for(words_of(asked), output);
+std::string Viewer::commands(const PageRequest &wanted) const {
+    const std::string ending = "." + wanted.format;
+    const std::string input = command_of(words_of(wanted)).input, output = output_name(input, ending);
+    const Words words = words_for(words_of(wanted), output);
     // The input of all frames is the word of words_ at the index that the first frame's input has in its own words.
     const Words first = picture_words(frames_.words(0));
     std::string range = words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())];
     range = output_name(range, file_at(range, 1) == range ? ".####" + ending : ending);
     return Json{{"shell", shell_command(words, output)},
-                {"range", words_for(words_with(words_, asked.settings, options_.presets), output)},
+                {"range", words_for(words_with(words_, wanted.settings, options_.presets), output)},
                 {"range_output", range},
                 {"python", python_script(words, input, output)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::optional<std::string> Viewer::save(const Asked &asked) {
+std::optional<std::string> Viewer::save(const PageRequest &wanted) {
     if (options_.save.empty()) throw UsageError("nothing can be saved: start dof-view with --save FOLDER");
-    const Words words = words_of(asked);
+    const Words words = words_of(wanted);
     command_of(words);
-    return studio_.make(asked.page + "/save", [this, words](Progress &progress) {
+    return studio_.make(wanted.page + "/save", [this, words](Progress &progress) {
         const GatherCommand command = command_of(words);
         Image image = taken(words, command, progress)->image;
         std::filesystem::path path;

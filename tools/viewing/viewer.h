@@ -6,7 +6,7 @@
 #include "harness/commands/frames.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
 
@@ -99,42 +99,43 @@ public:
            const ToolContext &tool);
 
     // JSON: the facts that do not change with the lens: size, looks, options, frames.
-    std::string facts(const Asked &asked);
+    std::string facts(const PageRequest &wanted);
 
     // Each returns the length of some JSON (4 bytes, the lowest first), that JSON, and 8-bit pixels by rows; empty if
     // the page has asked for something newer. Throws UsageError if there is no such picture. If a pixel is given, tiles
     // are made from there outwards, and pieces() returns them before the picture is complete.
-    std::optional<std::string> picture(const Asked &asked);
-    std::string pieces(const Asked &asked); // the JSON gives their positions; their pixels follow in order
-    std::optional<std::string> reference(const Asked &asked);
-    std::optional<std::string> plate(const Asked &asked);
-    std::optional<std::string> rendered(const Asked &asked); // without depth of field
+    std::optional<std::string> picture(const PageRequest &wanted);
+    std::string
+    pieces(const PageRequest &wanted); // the JSON gives their positions; their pixels follow in order
+    std::optional<std::string> reference(const PageRequest &wanted);
+    std::optional<std::string> plate(const PageRequest &wanted);
+    std::optional<std::string> rendered(const PageRequest &wanted); // without depth of field
 
     // In the same form, with the two bytes of ObjectMap for each pixel.
-    std::string objects(const Asked &asked);
+    std::string objects(const PageRequest &wanted);
 
     // JSON: the samples of a pixel, and its value in the last picture; the progress of the page's picture; the commands
     // that make it elsewhere, with a range of frames as words; the name of the PNG that was written (--save).
-    std::string samples(const Asked &asked);
-    std::string progress(const Asked &asked) const;
-    std::string commands(const Asked &asked) const;
-    std::optional<std::string> save(const Asked &asked);
+    std::string samples(const PageRequest &wanted);
+    std::string progress(const PageRequest &wanted) const;
+    std::string commands(const PageRequest &wanted) const;
+    std::optional<std::string> save(const PageRequest &wanted);
 
     // JSON: the lens of the plate, in a region of the picture if one is given; the looks are those of the page.
-    std::optional<std::string> match(const Asked &asked);
+    std::optional<std::string> match(const PageRequest &wanted);
 
 private:
-    std::size_t frame_of(const Asked &asked) const;
+    std::size_t frame_of(const PageRequest &wanted) const;
     Words words_of_frame(std::size_t i) const;
-    Words words_of(const Asked &asked) const;
-    GatherCommand command_of_frame(const Asked &asked) const;
-    std::string beside(const Asked &asked, const char *option, KeptFile &file); // as picture()
-    std::string file_of(const Asked &asked, const char *option) const;
+    Words words_of(const PageRequest &wanted) const;
+    GatherCommand command_of_frame(const PageRequest &wanted) const;
+    std::string beside(const PageRequest &wanted, const char *option, KeptFile &file); // as picture()
+    std::string file_of(const PageRequest &wanted, const char *option) const;
     std::shared_ptr<const ShotPicture> taken(const Words &words, const GatherCommand &command,
                                              Progress &progress, const TileWatch *watch = nullptr);
-    void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
+    void add_piece(const PageRequest &wanted, const ShotFrame &frame, const Image &picture,
                    const Imath::Box2i &tile);
-    std::string answer(const Words &words, const Asked &asked, Progress &progress);
+    std::string answer(const Words &words, const PageRequest &wanted, Progress &progress);
 
     ViewOptions options_;
     Words words_; // of the pictures, for all frames

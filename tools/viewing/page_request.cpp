@@ -1,4 +1,4 @@
-#include "viewing/asked.h"
+#include "viewing/page_request.h"
 
 #include "base/error.h"
 #include "base/text.h"
@@ -96,31 +96,31 @@ Imath::Box2i region_of(const Json &value) {
 
 } // namespace
 
-Asked parse_asked(std::string_view text) {
-    if (text.size() > most_asked) refuse("it is too long");
+PageRequest parse_page_request(std::string_view text) {
+    if (text.size() > most_request_bytes) refuse("it is too long");
     const Json json = Json::parse(text, nullptr, false); // no exceptions
     if (!json.is_object()) refuse("it is not an object of JSON");
-    Asked asked;
+    PageRequest wanted;
     for (const auto &[name, value] : json.items()) {
         if (name == "page")
-            asked.page = page_of(value);
+            wanted.page = page_of(value);
         else if (name == "settings")
-            asked.settings = settings_of(value);
+            wanted.settings = settings_of(value);
         else if (name == "frame")
-            asked.frame = frame_of(value);
+            wanted.frame = frame_of(value);
         else if (name == "format")
-            asked.format = format_of(value);
+            wanted.format = format_of(value);
         else if (name == "exposure")
-            asked.exposure = exposure_of(value);
+            wanted.exposure = exposure_of(value);
         else if (name == "pixel")
-            asked.pixel = pixel_of(value);
+            wanted.pixel = pixel_of(value);
         else if (name == "region")
-            asked.region = region_of(value);
+            wanted.region = region_of(value);
         else
             refuse("it has a name that is unknown");
     }
-    if (asked.page.empty()) refuse("it says no page");
-    return asked;
+    if (wanted.page.empty()) refuse("it says no page");
+    return wanted;
 }
 
 namespace {

@@ -16,7 +16,7 @@
 
 namespace sparselens {
 
-struct Asked {
+struct PageRequest {
     std::string page; // the page's id: 1 to 32 letters and digits
     // Options of dof-gather without dashes -> their values. An empty value resets the option to the server's command
     // line.
@@ -29,11 +29,11 @@ struct Asked {
 };
 
 // Longer requests are refused.
-inline constexpr std::size_t most_asked = 16384; // bytes
+inline constexpr std::size_t most_request_bytes = 16384; // bytes
 
 // Parses a request. Throws UsageError with the reason if the text is invalid. Values may hold only letters, digits and
 // "+-.,_", so a page cannot name a file.
-Asked parse_asked(std::string_view text);
+PageRequest parse_page_request(std::string_view text);
 
 // The picture on a page, as the words of a dof-gather command line: the server's own words, and the page's settings. So
 // a page can set only what a command line can say, and every picture has a command.
@@ -45,7 +45,7 @@ using Presets = std::map<std::string, std::string>;
 // The words of a dof-view command line that dof-gather also has: IN, and how the picture is made.
 Words picture_words(const Words &all);
 
-// The words with a page's settings (Asked::settings) applied; its lens is the name of a preset. Throws UsageError if a
+// The words with a page's settings (PageRequest::settings) applied; its lens is the name of a preset. Throws UsageError if a
 // page may not set an option.
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
                  const Presets &presets = {});
