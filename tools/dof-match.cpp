@@ -43,9 +43,9 @@ std::vector<FrameFiles> files_of(const MatchCommand &options, const ToolContext 
 }
 
 // The LDIs and the plates of the frames.
-class Shot {
+class Sequence {
 public:
-    Shot(const MatchCommand &options, const ToolContext &tool) : options_(options), tool_(tool) {}
+    Sequence(const MatchCommand &options, const ToolContext &tool) : options_(options), tool_(tool) {}
 
     const OpenedLdi &ldi(const FrameFiles &frame) {
         if (frame.number) tool_.say(fmt::format("frame {}", *frame.number));
@@ -71,7 +71,7 @@ private:
 };
 
 // The shape of the lens, from the first frame that tells it.
-std::optional<MatchedShape> find_shape(Shot &shot, const std::vector<FrameFiles> &files,
+std::optional<MatchedShape> find_shape(Sequence &shot, const std::vector<FrameFiles> &files,
                                        const MatchRequest &request, const ToolContext &tool) {
     for (const FrameFiles &frame : files) {
         const OpenedLdi &in = shot.ldi(frame);
@@ -84,7 +84,7 @@ std::optional<MatchedShape> find_shape(Shot &shot, const std::vector<FrameFiles>
 }
 
 // Matches the frames one after the other. Writes the pictures of their fits.
-MatchedFrames match_frames(Shot &shot, const std::vector<FrameFiles> &files, const MatchRequest &request,
+MatchedFrames match_frames(Sequence &shot, const std::vector<FrameFiles> &files, const MatchRequest &request,
                            const ToolContext &tool) {
     FrameMatcher matcher(request);
     for (const FrameFiles &frame : files) {
@@ -137,7 +137,7 @@ std::string table_of(const std::vector<FrameFiles> &files, const std::vector<Mat
 
 void run(const MatchCommand &options, const ToolContext &tool) {
     const std::vector<FrameFiles> files = files_of(options, tool);
-    Shot shot(options, tool);
+    Sequence shot(options, tool);
     MatchRequest request = options.match;
     request.lens = options.lens;
     std::optional<MatchedShape> shape;

@@ -6,7 +6,7 @@
 #include "harness/tool.h"
 #include "io/lens_file.h"
 #include "options/gather_options.h"
-#include "viewing/door.h"
+#include "viewing/access.h"
 #include "viewing/pipe.h"
 #include "viewing/server.h"
 

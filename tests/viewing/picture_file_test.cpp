@@ -3,8 +3,8 @@
 #include "io/exr/exr_flat.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
-#include "viewing/gatherer.h"
 #include "viewing/pipe_request.h"
+#include "viewing/pipe_service.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -144,8 +144,8 @@ TEST(PipeRequest, AFlatPictureTakesThePlaceOfAFile) {
         EXPECT_THROW(parse_pipe_request(wrong), UsageError) << wrong;
 }
 
-TEST(HandedPictures, TheSamePictureHasTheSameFile) {
-    HandedPictures pictures;
+TEST(InMemoryPictures, TheSamePictureHasTheSameFile) {
+    InMemoryPictures pictures;
     const HandedLayout layout{windows_of_size(2, 1), {"R", "Z"}};
     const std::array<float, 4> values{0.5f, 3, 0.25f, 4}; // pixel by pixel
     const std::string pixels(reinterpret_cast<const char *>(values.data()), sizeof values);
@@ -159,21 +159,21 @@ TEST(HandedPictures, TheSamePictureHasTheSameFile) {
     EXPECT_NE(pictures.path_of(layout, others), path);
     EXPECT_EQ(pictures.path_of(layout, pixels), path);
     EXPECT_THROW(pictures.path_of(layout, pixels.substr(1)), UsageError);
-    EXPECT_EQ(HandedPictures::in_words(path + ": no"), "the picture that was handed over: no");
+    EXPECT_EQ(InMemoryPictures::in_words(path + ": no"), "the picture that was handed over: no");
 }
 
-TEST(Gatherer, AFileThatWasWrittenAgainIsReadAgain) {
+TEST(PipeService, AFileThatWasWrittenAgainIsReadAgain) {
     const ScratchFolder folder;
     ToolContext tool;
     tool.progress = std::make_unique<Progress>();
-    Gatherer gatherer(tool);
+    PipeService service(tool);
     PipeRequest request{Ask::picture};
     request.source = {
         folder.file("a.exr"),
         {{"focal-length", "50"}, {"sensor-width", "36"}, {"fstop", "2"}, {"focus-distance", "3"}}};
     for (const std::size_t width : {8u, 16u, 16u}) {
         write_ldi(request.source.file, ldi_of(std::vector<TestPixel>(width, {{3}})), Imf::Header());
-        EXPECT_EQ(gatherer.answer(request).pixels.size(), width * 4 * sizeof(std::uint16_t));
+        EXPECT_EQ(service.answer(request).pixels.size(), width * 4 * sizeof(std::uint16_t));
     }
 }
 

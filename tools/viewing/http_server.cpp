@@ -57,7 +57,7 @@ HttpAnswer refusal(int status, const std::string &why) { return {.status = statu
 
 } // namespace
 
-// A request that a thread of the crew works on.
+// A request that a thread of the pool works on.
 struct HttpServer::Task {
     HttpRequest request;
     HttpAnswer answer;
@@ -88,15 +88,15 @@ struct HttpServer::Connection {
     }
 };
 
-HttpServer::HttpServer(int port, MayComeIn may_come_in, Answer answer, std::string headers,
+HttpServer::HttpServer(int port, IsAuthorised is_authorised, Answer answer, std::string headers,
                        const HttpLimits &limits)
-    : may_come_in_(std::move(may_come_in)), answer_(std::move(answer)), headers_(std::move(headers)),
+    : is_authorised_(std::move(is_authorised)), answer_(std::move(answer)), headers_(std::move(headers)),
       limits_(limits), listener_(listening_at(port)), wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
     files_.reserve(2 + limits_.connections);
 }
 
 HttpServer::~HttpServer() {
-    crew_.end();
+    pool_.end();
     close_file(listener_);
     close_file(wake_);
 }
@@ -210,7 +210,7 @@ void HttpServer::begin(Connection &connection) {
         reply(connection, refusal(why.status, why.why), false);
         return;
     }
-    if (!may_come_in_(task->request)) {
+    if (!is_authorised_(task->request)) {
         reply(connection,
               refusal(403, "not allowed: open the address that dof-view has printed, with its key"),
               task->request.keep_alive);
@@ -218,7 +218,7 @@ void HttpServer::begin(Connection &connection) {
     }
     connection.state = Connection::State::working;
     connection.task = task;
-    crew_.add([this, task] {
+    pool_.add([this, task] {
         try {
             task->answer = answer_(task->request);
         } catch (...) { // no memory, not even for the message

@@ -1,12 +1,12 @@
 // Answers HTTP requests on a port of this machine. Only this class uses sockets.
 //
 // One thread reads the requests of all connections and writes their answers, so a slow connection delays nobody and
-// costs no more memory than one bounded request. Other threads (studio.h) work on complete requests that are admitted. If
+// costs no more memory than one bounded request. Other threads (job_queue.h) work on complete requests that are admitted. If
 // there are too many connections, the one that has been silent or incomplete for longest is closed.
 #pragma once
 
 #include "viewing/http_request.h"
-#include "viewing/studio.h"
+#include "viewing/job_queue.h"
 
 #include <poll.h>
 
@@ -30,12 +30,12 @@ struct HttpLimits {
 
 class HttpServer {
 public:
-    using MayComeIn = std::function<bool(const HttpRequest &)>; // quick; false is answered 403
+    using IsAuthorised = std::function<bool(const HttpRequest &)>; // quick; false is answered 403
     using Answer =
         std::function<HttpAnswer(const HttpRequest &)>; // called by several threads; an exception becomes 500
 
     // Port 0: any free port. `headers` are added to every answer. Throws Error if the port is not available.
-    HttpServer(int port, MayComeIn may_come_in, Answer answer, std::string headers,
+    HttpServer(int port, IsAuthorised is_authorised, Answer answer, std::string headers,
                const HttpLimits &limits = {});
     ~HttpServer();
     HttpServer(const HttpServer &) = delete;
@@ -61,7 +61,7 @@ private:
     void reply(Connection &connection, HttpAnswer answer, bool keep_alive);
     void send(Connection &connection);
 
-    MayComeIn may_come_in_;
+    IsAuthorised is_authorised_;
     Answer answer_;
     std::string headers_;
     HttpLimits limits_;
@@ -70,7 +70,7 @@ private:
     Clock::time_point accept_again_ = {}; // if there was no room for another connection
     Connections connections_;
     std::vector<pollfd> files_; // of the two above and of the connections, for poll()
-    Crew crew_;                 // last: its tasks use the members above
+    ThreadPool pool_;           // last: its tasks use the members above
 };
 
 } // namespace sparselens

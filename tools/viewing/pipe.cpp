@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
-#include "viewing/door.h"
-#include "viewing/gatherer.h"
+#include "viewing/access.h"
 #include "viewing/pipe_request.h"
+#include "viewing/pipe_service.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -169,25 +169,25 @@ std::string answer_line(int status, std::size_t bytes, const std::string &text) 
     return fmt::format("{} {} {}\n", status, bytes, one_line(text));
 }
 
-std::string answer_to(Gatherer &gatherer, const std::string &line) {
+std::string answer_to(PipeService &service, const std::string &line) {
     PipeRequest request = parse_pipe_request(line);
-    if (request.handed) gatherer.take(request, take_pixels(request.handed->bytes()));
-    Gatherer::Answer answer = gatherer.answer(request);
+    if (request.handed) service.take(request, take_pixels(request.handed->bytes()));
+    PipeService::Answer answer = service.answer(request);
     put_pixels(answer.pixels);
     return answer_line(200, answer.pixels.size(),
                        answer.said.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 // The answer to the next line; empty at the end.
-std::optional<std::string> next_answer(Gatherer &gatherer, Lines &lines) {
+std::optional<std::string> next_answer(PipeService &service, Lines &lines) {
     try {
         const std::optional<std::string> line = lines.next();
         if (!line) return {};
-        return answer_to(gatherer, *line);
+        return answer_to(service, *line);
     } catch (const std::exception &) {
         const Refusal refusal = refusal_of_exception();
         return answer_line(refusal.status, 0,
-                           HandedPictures::in_words(refusal.why)); // text from a file may not be UTF-8
+                           InMemoryPictures::in_words(refusal.why)); // text from a file may not be UTF-8
     }
 }
 
@@ -198,11 +198,11 @@ void answer_pipe(const ToolContext &tool) {
     forget_configuration_of_mlt();
     const Ends ends;
     const Watch watch(ends.answers);
-    Gatherer gatherer(tool);
+    PipeService service(tool);
     Lines lines(ends.requests);
     const Json greeting{{"sparselens", SPARSELENS_VERSION}, {"pipe", pipe_version}};
     std::optional<std::string> answer = answer_line(200, 0, greeting.dump());
-    for (; answer && write_all(ends.answers, *answer); answer = next_answer(gatherer, lines)) {
+    for (; answer && write_all(ends.answers, *answer); answer = next_answer(service, lines)) {
     }
 }
 

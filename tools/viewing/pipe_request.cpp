@@ -166,7 +166,7 @@ Image image_of(const HandedLayout &layout, const std::string &pixels) {
 
 } // namespace
 
-std::string HandedPictures::path_of(const HandedLayout &layout, std::string pixels) {
+std::string InMemoryPictures::path_of(const HandedLayout &layout, std::string pixels) {
     if (pixels.size() != layout.bytes())
         throw UsageError(fmt::format("the request: {} has {} bytes of pixels instead of {}", name,
                                      pixels.size(), layout.bytes()));
@@ -178,7 +178,7 @@ std::string HandedPictures::path_of(const HandedLayout &layout, std::string pixe
     return kept_.get({layout, std::move(pixels)}, as_file)->path();
 }
 
-std::string HandedPictures::in_words(std::string message) {
+std::string InMemoryPictures::in_words(std::string message) {
     static const std::regex path("/proc/self/fd/[0-9]+");
     return std::regex_replace(message, path, name);
 }

@@ -36,7 +36,7 @@ struct HandedLayout {
 
 // Such pictures. Each becomes an EXR file in memory. It has a path as long as it is kept, so whatever reads files can
 // read it.
-class HandedPictures {
+class InMemoryPictures {
 public:
     // The path of a picture's file. The same picture handed over again has the same file. Throws UsageError if the
     // pixels are not as many bytes as the layout says.

@@ -1,7 +1,7 @@
 #include "viewing/server.h"
 
 #include "base/error.h"
-#include "viewing/door.h"
+#include "viewing/access.h"
 #include "viewing/http_server.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-bool may_come_in(const HttpRequest &request, const std::string &key) {
+bool is_authorised(const HttpRequest &request, const std::string &key) {
     return is_loopback_host(request.host) && is_own_origin(request.origin, request.host) &&
            same_key(key, request.key);
 }
@@ -83,7 +83,7 @@ HttpAnswer answer_to(const HttpRequest &request, const Routes &routes) {
 void serve(Viewer &viewer, int port, const std::string &key, const std::function<void(int port)> &ready) {
     const Routes routes = routes_of(viewer);
     HttpServer server(
-        port, [&](const HttpRequest &request) { return may_come_in(request, key); },
+        port, [&](const HttpRequest &request) { return is_authorised(request, key); },
         [&](const HttpRequest &request) { return answer_to(request, routes); },
         "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
         "Cross-Origin-Resource-Policy: same-origin\r\n");

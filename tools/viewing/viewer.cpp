@@ -5,7 +5,7 @@
 #include "chain/match_lens.h"
 #include "io/moment_files.h"
 #include "options/match_options.h"
-#include "viewing/reel.h"
+#include "viewing/frame_cache.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -73,8 +73,8 @@ std::vector<GatherCommand> commands_of(const FrameCommands &frames) {
 Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameCommands &frames,
                const ToolContext &tool)
     : options_(options), words_(picture_words(words)), frames_(frames), tool_(tool),
-      shot_(commands_of(frames), tool) {
-    const Reel::Held first = shot_.frame(options.picture);
+      sequence_(commands_of(frames), tool) {
+    const FrameCache::Held first = sequence_.frame(options.picture);
     guess_ = first->in.depth == DepthMeaning::disparity ? blur_guess(*first, options.picture)
                                                         : lens_guess(*first, first->camera(options.picture));
     if (!guess_.empty()) warn(tool, guess_in_words(guess_));
@@ -109,7 +109,7 @@ GatherCommand Viewer::command_of_frame(const PageRequest &wanted) const {
 
 std::string Viewer::facts(const PageRequest &wanted) {
     const GatherCommand command = command_of_frame(wanted);
-    const Reel::Held frame = shot_.frame(command);
+    const FrameCache::Held frame = sequence_.frame(command);
     const Windows &windows = frame->in.ldi.windows;
     const Imath::Box2i display = reduced(windows.display, frame->across);
     const Camera camera = frame->camera(command);
@@ -138,8 +138,8 @@ std::string Viewer::facts(const PageRequest &wanted) {
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::shared_ptr<const ShotPicture> Viewer::taken(const Words &words, const GatherCommand &command,
-                                                 Progress &progress, const TileWatch *watch) {
+std::shared_ptr<const SequencePicture> Viewer::taken(const Words &words, const GatherCommand &command,
+                                                     Progress &progress, const TileWatch *watch) {
     {
         const std::lock_guard lock(last_mutex_);
         if (last_ && last_->words == words) return last_->picture;
@@ -148,23 +148,24 @@ std::shared_ptr<const ShotPicture> Viewer::taken(const Words &words, const Gathe
         const std::lock_guard lock(last_mutex_);
         last_.reset();
     }
-    const auto picture = std::make_shared<const ShotPicture>(shot_.taken(command, tool_, progress, watch));
+    const auto picture =
+        std::make_shared<const SequencePicture>(sequence_.taken(command, tool_, progress, watch));
     const std::lock_guard lock(last_mutex_);
-    last_ = Last{words, command.windows.proxy, picture};
+    last_ = LastPicture{words, command.windows.proxy, picture};
     return picture;
 }
 
 std::string Viewer::answer(const Words &words, const PageRequest &wanted, Progress &progress) {
     const auto begun = std::chrono::steady_clock::now();
     const GatherCommand command = command_of(words);
-    const Reel::Held frame = shot_.frame(command);
+    const FrameCache::Held frame = sequence_.frame(command);
     const TileWatch watch{
         wanted.pixel.value_or(Imath::V2i(0)),
         [&](const Image &picture, const Imath::Box2i &tile) { add_piece(wanted, *frame, picture, tile); }};
     const Pieces::AtWork at_work(pieces_, wanted.page);
     const auto picture = taken(words, command, progress, wanted.pixel ? &watch : nullptr);
     progress.may_end();
-    const ShownPixels pixels = Shot::displayed(picture->image, wanted.exposure, *frame);
+    const ShownPixels pixels = Sequence::displayed(picture->image, wanted.exposure, *frame);
     Json said = size_of(pixels);
     said["lens"] = lens_facts(*picture);
     said["milliseconds"] =
@@ -173,7 +174,7 @@ std::string Viewer::answer(const Words &words, const PageRequest &wanted, Progre
 }
 
 // Adds the part of the tile that is displayed.
-void Viewer::add_piece(const PageRequest &wanted, const ShotFrame &frame, const Image &picture,
+void Viewer::add_piece(const PageRequest &wanted, const LoadedFrame &frame, const Image &picture,
                        const Imath::Box2i &tile) {
     const Imath::Box2i &display = picture.windows.display;
     const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
@@ -181,7 +182,7 @@ void Viewer::add_piece(const PageRequest &wanted, const ShotFrame &frame, const 
     if (box.isEmpty()) return;
     Image piece = crop(picture, box);
     piece.windows.display = box;
-    pieces_.add({box.min, Shot::displayed(std::move(piece), wanted.exposure, frame)});
+    pieces_.add({box.min, Sequence::displayed(std::move(piece), wanted.exposure, frame)});
 }
 
 std::string Viewer::pieces(const PageRequest &wanted) {
@@ -199,8 +200,8 @@ std::string Viewer::pieces(const PageRequest &wanted) {
 std::optional<std::string> Viewer::picture(const PageRequest &wanted) {
     const Words words = words_of(wanted);
     command_of(words); // reports errors without waiting
-    return studio_.make(
-        wanted.page, [this, words, wanted](Progress &progress) { return answer(words, wanted, progress); });
+    return queue_.make(wanted.page,
+                       [this, words, wanted](Progress &progress) { return answer(words, wanted, progress); });
 }
 
 std::string Viewer::file_of(const PageRequest &wanted, const char *option) const {
@@ -210,11 +211,11 @@ std::string Viewer::file_of(const PageRequest &wanted, const char *option) const
     return path;
 }
 
-std::string Viewer::beside(const PageRequest &wanted, const char *option, KeptFile &file) {
+std::string Viewer::beside(const PageRequest &wanted, const char *option, LoadedPicture &file) {
     const std::string path = file_of(wanted, option);
-    const Reel::Held frame = shot_.frame(command_of_frame(wanted));
+    const FrameCache::Held frame = sequence_.frame(command_of_frame(wanted));
     return file.with(path, [&](const Image &image) {
-        const ShownPixels pixels = Shot::displayed(image, wanted.exposure, *frame);
+        const ShownPixels pixels = Sequence::displayed(image, wanted.exposure, *frame);
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
@@ -229,8 +230,8 @@ std::optional<std::string> Viewer::plate(const PageRequest &wanted) {
 std::optional<std::string> Viewer::match(const PageRequest &wanted) {
     const std::string path = file_of(wanted, "--plate");
     const GatherCommand shot = command_of_frame(wanted), shown = command_of(words_of(wanted));
-    return studio_.make(wanted.page + "/match", [=, this](Progress &progress) {
-        const Reel::Held frame = shot_.frame(shot);
+    return queue_.make(wanted.page + "/match", [=, this](Progress &progress) {
+        const FrameCache::Held frame = sequence_.frame(shot);
         OpenedLdi in = frame->unpacked();
         in.camera.supersample = frame->across;
         const MatchRequest request{.region = wanted.region, .lens = shot.lens, .looks = shown.looks};
@@ -245,22 +246,22 @@ std::optional<std::string> Viewer::rendered(const PageRequest &wanted) {
     PageRequest sharp = wanted;
     sharp.settings = {{"lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
-    return studio_.make(wanted.page + "/rendered", [this, command, wanted](Progress &progress) {
-        const ShownPixels pixels = Shot::displayed(shot_.taken(command, tool_, progress).image,
-                                                   wanted.exposure, *shot_.frame(command));
+    return queue_.make(wanted.page + "/rendered", [this, command, wanted](Progress &progress) {
+        const ShownPixels pixels = Sequence::displayed(sequence_.taken(command, tool_, progress).image,
+                                                       wanted.exposure, *sequence_.frame(command));
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
 
 std::string Viewer::objects(const PageRequest &wanted) {
-    const ObjectMap map = object_map(*shot_.frame(command_of_frame(wanted)));
+    const ObjectMap map = object_map(*sequence_.frame(command_of_frame(wanted)));
     return with_bytes(map.said, map.numbers);
 }
 
 std::string Viewer::samples(const PageRequest &wanted) {
     if (!wanted.pixel) throw UsageError("the request: it says no pixel");
     const GatherCommand command = command_of(words_of(wanted));
-    const Reel::Held frame = shot_.frame(command);
+    const FrameCache::Held frame = sequence_.frame(command);
     Json said{{"samples", sample_facts(*frame, frame->lens(command), *wanted.pixel)}};
     const std::lock_guard lock(last_mutex_);
     if (last_ && std::ranges::find(last_->words, command.input) != last_->words.end()) {
@@ -274,8 +275,8 @@ std::string Viewer::samples(const PageRequest &wanted) {
 }
 
 std::string Viewer::progress(const PageRequest &wanted) const {
-    Json said{{"finished", studio_.finished()}, {"held", shot_.reel().held()}};
-    if (const auto state = studio_.state(wanted.page))
+    Json said{{"finished", queue_.finished()}, {"held", sequence_.frames().held()}};
+    if (const auto state = queue_.state(wanted.page))
         said.update({{"stage", state->stage}, {"percent", state->percent}});
     return said.dump();
 }
@@ -299,7 +300,7 @@ std::optional<std::string> Viewer::save(const PageRequest &wanted) {
     if (options_.save.empty()) throw UsageError("nothing can be saved: start dof-view with --save FOLDER");
     const Words words = words_of(wanted);
     command_of(words);
-    return studio_.make(wanted.page + "/save", [this, words](Progress &progress) {
+    return queue_.make(wanted.page + "/save", [this, words](Progress &progress) {
         const GatherCommand command = command_of(words);
         Image image = taken(words, command, progress)->image;
         std::filesystem::path path;
@@ -308,7 +309,7 @@ std::optional<std::string> Viewer::save(const PageRequest &wanted) {
                    fmt::format("{}.{:04}.png", stem_of(command.input), ++saved_);
         while (std::filesystem::exists(path));
         write_picture(tool_.tell(), command.colour, path.string(), std::move(image),
-                      shot_.frame(command)->in.header);
+                      sequence_.frame(command)->in.header);
         return Json{{"file", path.string()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
     });
 }

@@ -6,9 +6,9 @@
 #include "harness/commands/frames.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
+#include "viewing/job_queue.h"
 #include "viewing/page_request.h"
-#include "viewing/shot.h"
-#include "viewing/studio.h"
+#include "viewing/sequence.h"
 
 #include <Imath/ImathVec.h>
 
@@ -23,7 +23,7 @@ namespace sparselens {
 
 // A flat picture that pages show besides that of the lens: the last one is kept. Its users take turns, so that it is in
 // memory once, however many pages ask.
-class KeptFile {
+class LoadedPicture {
 public:
     // Returns use(picture). Throws Error if the file cannot be read.
     template <typename Use>
@@ -129,11 +129,11 @@ private:
     Words words_of_frame(std::size_t i) const;
     Words words_of(const PageRequest &wanted) const;
     GatherCommand command_of_frame(const PageRequest &wanted) const;
-    std::string beside(const PageRequest &wanted, const char *option, KeptFile &file); // as picture()
+    std::string beside(const PageRequest &wanted, const char *option, LoadedPicture &file); // as picture()
     std::string file_of(const PageRequest &wanted, const char *option) const;
-    std::shared_ptr<const ShotPicture> taken(const Words &words, const GatherCommand &command,
-                                             Progress &progress, const TileWatch *watch = nullptr);
-    void add_piece(const PageRequest &wanted, const ShotFrame &frame, const Image &picture,
+    std::shared_ptr<const SequencePicture> taken(const Words &words, const GatherCommand &command,
+                                                 Progress &progress, const TileWatch *watch = nullptr);
+    void add_piece(const PageRequest &wanted, const LoadedFrame &frame, const Image &picture,
                    const Imath::Box2i &tile);
     std::string answer(const Words &words, const PageRequest &wanted, Progress &progress);
 
@@ -142,19 +142,19 @@ private:
     Words guess_; // for the lens, appended to words_
     FrameCommands frames_;
     const ToolContext &tool_;
-    Shot shot_;
-    KeptFile reference_, plate_;
+    Sequence sequence_;
+    LoadedPicture reference_, plate_;
     // The last picture and its settings; it can be shown at another exposure.
-    struct Last {
+    struct LastPicture {
         Words words;
         int proxy = 1;
-        std::shared_ptr<const ShotPicture> picture;
+        std::shared_ptr<const SequencePicture> picture;
     };
     mutable std::mutex last_mutex_;
-    std::optional<Last> last_;
+    std::optional<LastPicture> last_;
     Pieces pieces_;
     int saved_ = 0;
-    Studio studio_; // last: it works with the members above
+    JobQueue queue_; // last: it works with the members above
 };
 
 } // namespace sparselens

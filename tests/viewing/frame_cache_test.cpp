@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "viewing/reel.h"
+#include "viewing/frame_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 const std::vector<std::string> five{"a", "b", "c", "d", "e"};
 
-ShotFrame frame_called(const std::string &path) {
-    ShotFrame frame{{}, PackedRows(windows_of_size(250, 1))};
+LoadedFrame frame_called(const std::string &path) {
+    LoadedFrame frame{{}, PackedRows(windows_of_size(250, 1))};
     frame.in.name = path;
     Ldi ldi;
     ldi.windows = windows_of_size(250, 1);
@@ -31,7 +31,7 @@ std::uint64_t memory_of(double frames) {
 // Records the files read, in order.
 class Files {
 public:
-    Reel::Read reader(const std::string &bad = "") {
+    FrameCache::Read reader(const std::string &bad = "") {
         return [this, bad](const std::string &path) {
             const std::lock_guard lock(mutex_);
             read_ += path;
@@ -55,58 +55,58 @@ private:
     std::string read_;
 };
 
-TEST(Reel, ReadsAheadAndRoundTheEnd) {
+TEST(FrameCache, ReadsAheadAndRoundTheEnd) {
     Files files;
-    Reel reel(five, memory_of(10), files.reader());
+    FrameCache frames(five, memory_of(10), files.reader());
     EXPECT_EQ(files.read(), "");
-    EXPECT_EQ(reel.at("c")->in.name, "c");
+    EXPECT_EQ(frames.at("c")->in.name, "c");
     EXPECT_EQ(files.once(5), "cdeab");
-    const Reel::Held held = reel.at("a");
-    EXPECT_EQ(reel.at("a"), held);
+    const FrameCache::Held held = frames.at("a");
+    EXPECT_EQ(frames.at("a"), held);
     EXPECT_EQ(files.read(), "cdeab"); // each once
-    EXPECT_EQ(reel.held(), 5u);
+    EXPECT_EQ(frames.held(), 5u);
 }
 
-TEST(Reel, GoesBackwardsWhereItIsAskedTo) {
+TEST(FrameCache, GoesBackwardsWhereItIsAskedTo) {
     Files files;
-    Reel reel(five, memory_of(2), files.reader());
-    reel.at("c");
+    FrameCache frames(five, memory_of(2), files.reader());
+    frames.at("c");
     EXPECT_EQ(files.once(2), "cd");
-    reel.at("b");
+    frames.at("b");
     EXPECT_EQ(files.once(4), "cdba");
 }
 
-TEST(Reel, HoldsNoMoreThanFits) {
+TEST(FrameCache, HoldsNoMoreThanFits) {
     Files files;
-    Reel reel(five, memory_of(3.5), files.reader());
-    reel.at("a");
+    FrameCache frames(five, memory_of(3.5), files.reader());
+    frames.at("a");
     EXPECT_EQ(files.once(3), "abc");
-    reel.at("b");
+    frames.at("b");
     EXPECT_EQ(files.once(4), "abcd");
     std::this_thread::sleep_for(std::chrono::milliseconds(20)); // any further read would happen now
     EXPECT_EQ(files.read(), "abcd");
-    EXPECT_EQ(reel.held(), 3u);
-    EXPECT_FALSE(reel.holds("a"));
+    EXPECT_EQ(frames.held(), 3u);
+    EXPECT_FALSE(frames.holds("a"));
 }
 
-TEST(Reel, HoldsOneHoweverLarge) {
+TEST(FrameCache, HoldsOneHoweverLarge) {
     Files files;
-    Reel reel(five, 10, files.reader());
-    reel.at("a");
-    reel.at("b");
-    EXPECT_EQ(reel.held(), 1u);
-    EXPECT_TRUE(reel.holds("b"));
-    reel.at("b");
+    FrameCache frames(five, 10, files.reader());
+    frames.at("a");
+    frames.at("b");
+    EXPECT_EQ(frames.held(), 1u);
+    EXPECT_TRUE(frames.holds("b"));
+    frames.at("b");
     EXPECT_EQ(files.read(), "ab");
 }
 
-TEST(Reel, WhoAsksForABadFrameIsToldAndOthersAreReadAhead) {
+TEST(FrameCache, WhoAsksForABadFrameIsToldAndOthersAreReadAhead) {
     Files files;
-    Reel reel({"a", "b", "a", "c"}, memory_of(10), files.reader("b"));
-    reel.at("a");
+    FrameCache frames({"a", "b", "a", "c"}, memory_of(10), files.reader("b"));
+    frames.at("a");
     EXPECT_EQ(files.once(3), "abc");
-    EXPECT_THROW(reel.at("b"), Error);
-    EXPECT_EQ(reel.at("c")->in.name, "c");
+    EXPECT_THROW(frames.at("b"), Error);
+    EXPECT_EQ(frames.at("c")->in.name, "c");
     EXPECT_EQ(files.read(), "abcb");
 }
 

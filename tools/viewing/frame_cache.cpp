@@ -1,4 +1,4 @@
-#include "viewing/reel.h"
+#include "viewing/frame_cache.h"
 
 #include "base/error.h"
 #include "deep/flatten.h"
@@ -16,7 +16,7 @@
 
 namespace sparselens {
 
-Reel::Reel(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read read)
+FrameCache::FrameCache(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read read)
     : most_bytes_(most_bytes), read_(std::move(read)) {
     std::set<std::string> seen;
     for (const std::string &path : paths)
@@ -25,7 +25,7 @@ Reel::Reel(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read
     if (paths_.size() > 1) reader_ = std::thread([this] { read_ahead(); });
 }
 
-Reel::~Reel() {
+FrameCache::~FrameCache() {
     {
         const std::lock_guard lock(mutex_);
         closing_ = true;
@@ -34,17 +34,17 @@ Reel::~Reel() {
     if (reader_.joinable()) reader_.join();
 }
 
-std::size_t Reel::number_of(const std::string &path) const {
+std::size_t FrameCache::number_of(const std::string &path) const {
     return std::size_t(std::ranges::find(paths_, path) - paths_.begin());
 }
 
 // The number of steps from the last requested frame, in the direction of the requests, wrapping at the end.
-std::size_t Reel::ahead(std::size_t number) const {
+std::size_t FrameCache::ahead(std::size_t number) const {
     const std::size_t count = paths_.size();
     return (forwards_ ? number + count - last_asked_ : last_asked_ + count - number) % count;
 }
 
-Reel::Held Reel::at(const std::string &path) {
+FrameCache::Held FrameCache::at(const std::string &path) {
     const std::size_t number = number_of(path);
     std::unique_lock lock(mutex_);
     if (number != last_asked_) {
@@ -58,18 +58,18 @@ Reel::Held Reel::at(const std::string &path) {
     return found != held_.end() ? found->second : read(lock, number);
 }
 
-std::size_t Reel::held() const {
+std::size_t FrameCache::held() const {
     const std::lock_guard lock(mutex_);
     return held_.size();
 }
 
-bool Reel::holds(const std::string &path) const {
+bool FrameCache::holds(const std::string &path) const {
     const std::lock_guard lock(mutex_);
     return held_.contains(number_of(path));
 }
 
 // Frees the farthest frames until `bytes` more fit, but never the last requested one.
-void Reel::make_room(std::uint64_t bytes) {
+void FrameCache::make_room(std::uint64_t bytes) {
     while (held_bytes_ + bytes > most_bytes_) {
         const auto farthest =
             std::ranges::max_element(held_, {}, [this](const auto &frame) { return ahead(frame.first); });
@@ -80,14 +80,14 @@ void Reel::make_room(std::uint64_t bytes) {
 }
 
 // Reads a frame; no other thread reads meanwhile.
-Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
+FrameCache::Held FrameCache::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
     reading_ = true;
     make_room(largest_);
     lock.unlock();
     Held frame;
     std::exception_ptr failure;
     try {
-        frame = std::make_shared<const ShotFrame>(read_(paths_.at(number)));
+        frame = std::make_shared<const LoadedFrame>(read_(paths_.at(number)));
     } catch (...) {
         failure = std::current_exception();
     }
@@ -104,7 +104,7 @@ Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
 }
 
 // The nearest frame that is not held, if it fits beside the nearer ones.
-std::optional<std::size_t> Reel::next_ahead() const {
+std::optional<std::size_t> FrameCache::next_ahead() const {
     std::uint64_t nearer = 0;
     for (std::size_t step = 0; step < paths_.size(); ++step) {
         const std::size_t count = paths_.size(),
@@ -120,7 +120,7 @@ std::optional<std::size_t> Reel::next_ahead() const {
     return {};
 }
 
-void Reel::read_ahead() {
+void FrameCache::read_ahead() {
     std::unique_lock lock(mutex_);
     for (;;) {
         std::optional<std::size_t> next;
@@ -179,23 +179,23 @@ Ldi all_rows(const PackedRows &rows) {
     return rows.rows(data.min.y, data.max.y);
 }
 
-Ldi ShotFrame::row(int y) const { return packed.rows(y, y); }
+Ldi LoadedFrame::row(int y) const { return packed.rows(y, y); }
 
-OpenedLdi ShotFrame::unpacked() const {
+OpenedLdi LoadedFrame::unpacked() const {
     OpenedLdi all = in;
     all.ldi = all_rows(packed);
     return all;
 }
 
-Camera ShotFrame::camera(const PictureRequest &request) const {
+Camera LoadedFrame::camera(const PictureRequest &request) const {
     return picture_camera(request, in, [this](const Imath::V2i &at) { return front_depth(row(at.y), at); });
 }
 
-ThinLens ShotFrame::lens(const PictureRequest &request) const {
+ThinLens LoadedFrame::lens(const PictureRequest &request) const {
     return picture_lens(request, in, camera(request));
 }
 
-ShotFrame pack(OpenedLdi in) {
+LoadedFrame pack(OpenedLdi in) {
     PackedRows rows(in.ldi.windows);
     rows.append(in.ldi);
     Ldi bare;
@@ -205,10 +205,10 @@ ShotFrame pack(OpenedLdi in) {
     return {std::move(in), std::move(rows)};
 }
 
-ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour) {
+LoadedFrame loaded_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour) {
     if (!all_found(find_rgb(in.ldi.channels))) throw Error(in.name + ": has no channels R, G and B to show");
     const DepthExtent depths = depth_extent(in.ldi);
-    ShotFrame frame = pack(std::move(in));
+    LoadedFrame frame = pack(std::move(in));
     frame.across = subpixels_of(windows, frame.in).across;
     frame.depths = depths;
     frame.names = object_names(frame.in.header);
@@ -219,7 +219,7 @@ ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOpt
 namespace {
 
 // The depth of the nearest sample in the middle of the picture; if there is none, the smallest depth of the picture.
-float depth_in_the_middle(const ShotFrame &frame) {
+float depth_in_the_middle(const LoadedFrame &frame) {
     const Imath::Box2i &display = frame.in.ldi.windows.display;
     const Imath::V2i at((display.min.x + display.max.x) / 2, (display.min.y + display.max.y) / 2);
     const float z = frame.in.ldi.windows.data.intersects(at) ? front_depth(frame.row(at.y), at) : 0;
@@ -228,7 +228,7 @@ float depth_in_the_middle(const ShotFrame &frame) {
 
 } // namespace
 
-Words blur_guess(const ShotFrame &frame, const PictureRequest &request) {
+Words blur_guess(const LoadedFrame &frame, const PictureRequest &request) {
     constexpr int of_width = 60;
     Words words;
     if (!request.blur)
@@ -238,7 +238,7 @@ Words blur_guess(const ShotFrame &frame, const PictureRequest &request) {
     return words;
 }
 
-Words lens_guess(const ShotFrame &frame, const Camera &camera) {
+Words lens_guess(const LoadedFrame &frame, const Camera &camera) {
     const auto radius = lens_radius_of(camera);
     if (radius == 0.0) return {}; // nothing else is needed
     Words words;

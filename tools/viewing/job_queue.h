@@ -17,7 +17,7 @@
 
 namespace sparselens {
 
-class Studio {
+class JobQueue {
 public:
     // Makes the bytes of an answer. Ends early, by an exception of `Progress`, if the answer is no longer wanted.
     using Work = std::function<std::string(Progress &)>;
@@ -54,11 +54,11 @@ private:
 
 // Threads that work on requests: at most `most_at_once`, each created when first needed. The callers of add() limit the
 // number of waiting tasks.
-class Crew {
+class ThreadPool {
 public:
     static constexpr std::size_t most_at_once = 64;
 
-    ~Crew() { end(); }
+    ~ThreadPool() { end(); }
     void add(std::function<void()> task); // the task must not throw; add() throws if no thread can be created
     void end();                           // waits for all added tasks
 

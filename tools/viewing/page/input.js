@@ -172,10 +172,10 @@ function startKeys() {
         event.preventDefault();
         found[1]();
     });
-    const hands = [['click', 'focus there'], ['Alt and click', 'the samples there; click one to focus on it'],
+    const gestures = [['click', 'focus there'], ['Alt and click', 'the samples there; click one to focus on it'],
         ['Shift and click', 'stops down until all of the object is sharp'], ['drag sideways', 'f-number'], ['wheel', 'focus'], ['Ctrl and wheel', 'zoom'], ['Shift and drag', 'move the picture'], ['Ctrl and Z', 'undo; with Shift: redo'],
         ...Object.entries(keys).map(([key, [what]]) => [key === ' ' ? 'Space' : key.length === 1 ? key.toUpperCase() : key, what])];
-    for (const line of hands) {
+    for (const line of gestures) {
         const row = part('help').insertRow();
         for (const text of line) row.insertCell().textContent = text;
     }

@@ -1,4 +1,4 @@
-#include "viewing/door.h"
+#include "viewing/access.h"
 
 #include "base/error.h"
 

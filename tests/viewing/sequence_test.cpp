@@ -2,9 +2,9 @@
 #include "support/ldi_samples.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
+#include "viewing/frame_cache.h"
 #include "viewing/page_request.h"
-#include "viewing/reel.h"
-#include "viewing/shot.h"
+#include "viewing/sequence.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,16 +24,16 @@ GatherCommand draft_of(const std::string &path) {
     return command_of(words);
 }
 
-ShotFrame frame_of(Ldi ldi, ObjectNames names = {}) {
+LoadedFrame frame_of(Ldi ldi, ObjectNames names = {}) {
     OpenedLdi in;
     in.ldi = std::move(ldi);
-    ShotFrame frame = pack(std::move(in));
+    LoadedFrame frame = pack(std::move(in));
     frame.depths = {2, 8};
     frame.names = std::move(names);
     return frame;
 }
 
-TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
+TEST(Sequence, FramesThatTheCacheLetsGoAreHeldByNobody) {
     const ScratchFolder folder;
     std::vector<GatherCommand> drafts;
     for (const char *name : {"a.exr", "b.exr", "c.exr"}) {
@@ -43,8 +43,8 @@ TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
     ToolContext tool;
     tool.progress = std::make_unique<Progress>();
     tool.max_memory = 100; // for frames besides the one shown
-    Shot shot(drafts, tool);
-    std::vector<std::weak_ptr<const ShotFrame>> frames;
+    Sequence shot(drafts, tool);
+    std::vector<std::weak_ptr<const LoadedFrame>> frames;
     for (const GatherCommand &draft : drafts) {
         shot.taken(draft, tool, *tool.progress);
         frames.push_back(shot.frame(draft));
@@ -55,7 +55,7 @@ TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
 }
 
 // A lamp at the border with a cut-off disc.
-TEST(Shot, WarnsOfMissingOverscan) {
+TEST(Sequence, WarnsOfMissingOverscan) {
     const ScratchFolder folder;
     const std::string path = folder.file("a.exr");
     write_ldi(path,
@@ -70,13 +70,13 @@ TEST(Shot, WarnsOfMissingOverscan) {
     const GatherCommand command =
         command_of({path, "--focal-length", "640", "--sensor-width", "40", "--lens-radius", "0.06",
                     "--focus-distance", "5", "--quality", "draft"});
-    Shot shot({command}, tool);
-    const ShotPicture picture = shot.taken(command, tool, *tool.progress);
+    Sequence shot({command}, tool);
+    const SequencePicture picture = shot.taken(command, tool, *tool.progress);
     ASSERT_EQ(picture.warnings.size(), 1u);
     EXPECT_TRUE(picture.warnings[0].ends_with("render more overscan")) << picture.warnings[0];
 }
 
-TEST(Shot, AFileIsReadAnewWhereAnotherFocalLengthMakesItsRaysPlanar) {
+TEST(Sequence, AFileIsReadAnewWhereAnotherFocalLengthMakesItsRaysPlanar) {
     const ScratchFolder folder;
     const std::string path = folder.file("a.exr");
     write_ldi(path, ldi_of(std::vector<TestPixel>(64, {{2}})), Imf::Header());
@@ -89,7 +89,7 @@ TEST(Shot, AFileIsReadAnewWhereAnotherFocalLengthMakesItsRaysPlanar) {
     }
     ToolContext tool;
     tool.progress = std::make_unique<Progress>();
-    Shot shot(frames, tool);
+    Sequence shot(frames, tool);
     EXPECT_LT(shot.frame(frames[0])->depths.nearest, 0.95 * shot.frame(frames[1])->depths.nearest);
     EXPECT_EQ(shot.frame(frames[0]), shot.frame(frames[0]));
 }
@@ -116,7 +116,7 @@ TEST(ObjectMap, NumbersDoNotComeRoundAgain) {
 }
 
 TEST(SampleFacts, AreEmptyHoweverFarAwayThePixelIs) {
-    ShotFrame frame = frame_of(ldi_of(std::vector<TestPixel>(64, {{2}})));
+    LoadedFrame frame = frame_of(ldi_of(std::vector<TestPixel>(64, {{2}})));
     frame.across = 16;
     const ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 3, .pixel_aspect = 1};
     EXPECT_EQ(sample_facts(frame, lens, {1, 0}).size(), 0u); // its middle is outside the only row
@@ -127,7 +127,7 @@ TEST(SampleFacts, AreEmptyHoweverFarAwayThePixelIs) {
 }
 
 TEST(LensGuess, IsOfWhatIsUnknownAlone) {
-    const ShotFrame frame = frame_of(ldi_of({{{2}}, {{4}}, {{8}}}));
+    const LoadedFrame frame = frame_of(ldi_of({{{2}}, {{4}}, {{8}}}));
     EXPECT_EQ(lens_guess(frame, {}), (Words{"--focal-length", "50", "--sensor-width", "36", "--fstop", "2.8",
                                             "--focus-distance", "4"}));
     Camera camera;

@@ -37,7 +37,7 @@ DepthExtent depth_extent(const Ldi &ldi);
 Ldi all_rows(const PackedRows &rows);
 
 // An LDI in half the memory.
-struct ShotFrame {
+struct LoadedFrame {
     OpenedLdi in;      // the file without its samples
     PackedRows packed; // the samples
     int across = 1;    // sub-pixels of the LDI that become one pixel
@@ -53,33 +53,33 @@ struct ShotFrame {
     ThinLens lens(const PictureRequest &request) const; // for pixels of the picture
 };
 
-ShotFrame pack(OpenedLdi in); // sets only `in` and `packed`
+LoadedFrame pack(OpenedLdi in); // sets only `in` and `packed`
 
 // Throws Error if the file has no R, G and B, which the page shows.
-ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);
+LoadedFrame loaded_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);
 
 // An initial lens if neither the file nor the command line gives one; the page is there to choose another. Options of
 // dof-gather for what is unknown: 50 mm before a sensor 36 mm wide, f/2.8, focused on the middle of the picture. Empty
 // if all is known.
-Words lens_guess(const ShotFrame &frame, const Camera &camera);
+Words lens_guess(const LoadedFrame &frame, const Camera &camera);
 
 // The same for a photograph, whose blur is then a 60th of its width.
-Words blur_guess(const ShotFrame &frame, const PictureRequest &request);
+Words blur_guess(const LoadedFrame &frame, const PictureRequest &request);
 
 // The same in words for people; empty for no options.
 std::string guess_in_words(const Words &guess);
 
-class Reel {
+class FrameCache {
 public:
-    using Held = std::shared_ptr<const ShotFrame>;
-    using Read = std::function<ShotFrame(const std::string &path)>; // may throw
+    using Held = std::shared_ptr<const LoadedFrame>;
+    using Read = std::function<LoadedFrame(const std::string &path)>; // may throw
 
     // `paths`: the files in order; several frames may share a file. The held frames take at most `most_bytes`, except
     // that the last requested one is always held.
-    Reel(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read read);
-    ~Reel(); // waits for the current read
-    Reel(const Reel &) = delete;
-    Reel &operator=(const Reel &) = delete;
+    FrameCache(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read read);
+    ~FrameCache(); // waits for the current read
+    FrameCache(const FrameCache &) = delete;
+    FrameCache &operator=(const FrameCache &) = delete;
 
     // Returns the frame of the file; reads it if it is not held, and throws that read's errors. Any number of threads
     // may call it.

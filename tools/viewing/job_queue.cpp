@@ -1,4 +1,4 @@
-#include "viewing/studio.h"
+#include "viewing/job_queue.h"
 
 #include "base/error.h"
 
@@ -16,14 +16,14 @@ struct Outdated {};
 
 } // namespace
 
-struct Studio::Job {
+struct JobQueue::Job {
     std::string page;
     std::atomic<bool> outdated = false;
     State state = {};
 };
 
 // Waits until it is the job's turn; returns false if it is outdated before.
-bool Studio::begin(const std::shared_ptr<Job> &job) {
+bool JobQueue::begin(const std::shared_ptr<Job> &job) {
     std::unique_lock lock(mutex_);
     if (at_work_ && at_work_->page == job->page) at_work_->outdated = true;
     const auto before = std::ranges::find(waiting_, job->page, [](const auto &other) { return other->page; });
@@ -43,14 +43,14 @@ bool Studio::begin(const std::shared_ptr<Job> &job) {
     return true;
 }
 
-void Studio::end(const Job &job) {
+void JobQueue::end(const Job &job) {
     const std::lock_guard lock(mutex_);
     at_work_.reset();
     if (!job.outdated) ++finished_;
     changed_.notify_all();
 }
 
-std::optional<std::string> Studio::make(const std::string &page, const Work &work) {
+std::optional<std::string> JobQueue::make(const std::string &page, const Work &work) {
     const auto job = std::make_shared<Job>();
     job->page = page;
     if (!begin(job)) return {};
@@ -72,23 +72,23 @@ std::optional<std::string> Studio::make(const std::string &page, const Work &wor
     }
 }
 
-std::optional<Studio::State> Studio::state(const std::string &page) const {
+std::optional<JobQueue::State> JobQueue::state(const std::string &page) const {
     const std::lock_guard lock(mutex_);
     if (!at_work_ || at_work_->page != page) return {};
     return at_work_->state;
 }
 
-std::size_t Studio::waiting() const {
+std::size_t JobQueue::waiting() const {
     const std::lock_guard lock(mutex_);
     return waiting_.size();
 }
 
-std::size_t Studio::finished() const {
+std::size_t JobQueue::finished() const {
     const std::lock_guard lock(mutex_);
     return finished_;
 }
 
-void Crew::add(std::function<void()> task) {
+void ThreadPool::add(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
     if (ending_) return;
     waiting_.push_back(std::move(task));
@@ -103,7 +103,7 @@ void Crew::add(std::function<void()> task) {
     changed_.notify_all();
 }
 
-void Crew::end() {
+void ThreadPool::end() {
     {
         const std::lock_guard lock(mutex_);
         ending_ = true;
@@ -113,7 +113,7 @@ void Crew::end() {
     threads_.clear();
 }
 
-void Crew::run() {
+void ThreadPool::run() {
     std::unique_lock lock(mutex_);
     for (;;) {
         ++idle_;

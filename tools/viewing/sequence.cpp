@@ -1,4 +1,4 @@
-#include "viewing/shot.h"
+#include "viewing/sequence.h"
 
 #include "base/matte.h"
 #include "chain/channels.h"
@@ -43,12 +43,12 @@ std::vector<std::string> names_of(const std::vector<GatherCommand> &frames) {
 }
 
 // Reads a file with the options of the first frame that has its name.
-Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
+FrameCache::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
     return [frames, &tool](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
         LdiCache cache;
-        return shot_frame(std::move(cache.load(middle_moment(options), tool.tell())), options.windows,
-                          options.colour);
+        return loaded_frame(std::move(cache.load(middle_moment(options), tool.tell())), options.windows,
+                            options.colour);
     };
 }
 
@@ -56,38 +56,38 @@ constexpr auto is_of_no_frame = [](const auto &of, const auto &) { return of.fra
 
 } // namespace
 
-Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
-    : reel_(names_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)) {
+Sequence::Sequence(const std::vector<GatherCommand> &frames, const ToolContext &tool)
+    : frames_(names_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)) {
     frame(frames.front());
 }
 
-Reel::Held Shot::frame(const GatherCommand &options) { return reel_.at(name_of(options)); }
+FrameCache::Held Sequence::frame(const GatherCommand &options) { return frames_.at(name_of(options)); }
 
-GatherWindows Shot::small(const Reel::Held &frame, const WindowOptions &options) {
+GatherWindows Sequence::small(const FrameCache::Held &frame, const WindowOptions &options) {
     small_.drop_if(is_of_no_frame);
-    const Small &made = small_.get({frame, options.proxy}, [&](const OfFrame &) {
+    const CachedProxy &made = small_.get({frame, options.proxy}, [&](const OfFrame &) {
         GatherWindows windows = gather_windows(options, frame->unpacked());
         const Ldi ldi = *std::exchange(windows.changed, {});
         PackedRows rows(ldi.windows);
         rows.append(ldi);
-        return Small{std::move(rows), std::move(windows)};
+        return CachedProxy{std::move(rows), std::move(windows)};
     });
     GatherWindows windows = made.windows;
     windows.changed = all_rows(made.ldi);
     return windows;
 }
 
-const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) {
+const Ldi *Sequence::holdout(const GatherCommand &options, const FrameCache::Held &frame) {
     if (options.holdout.empty()) return nullptr;
     holdouts_.drop_if(is_of_no_frame);
     return &holdouts_.get({frame, options.windows.proxy, options.holdout},
                           [&](const OfFrame &) { return open_holdout(middle_moment(options), frame->in); });
 }
 
-ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
-                        const TileWatch *watch) {
-    const Reel::Held of = frame(options);
-    ShotPicture out;
+SequencePicture Sequence::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
+                                const TileWatch *watch) {
+    const FrameCache::Held of = frame(options);
+    SequencePicture out;
     out.depths = of->depths;
     const Tell tell = [&](const Notice &notice) {
         if (level_of(notice) == NoticeLevel::note)
@@ -118,7 +118,7 @@ ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, P
     return out;
 }
 
-ShownPixels Shot::displayed(Image image, double exposure, const ShotFrame &frame) {
+ShownPixels Sequence::displayed(Image image, double exposure, const LoadedFrame &frame) {
     image = chosen_channels(std::move(image), shown_channels);
     const auto gain = float(std::exp2(exposure));
     if (exposure != 0)
@@ -174,7 +174,7 @@ Json short_number(float value) {
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
-Json lens_facts(const ShotPicture &picture) {
+Json lens_facts(const SequencePicture &picture) {
     const ThinLens &lens = picture.lens;
     const SharpRange sharp = sharp_range(lens, sharp_px);
     const double largest = std::max(std::abs(circle_of_confusion(lens, picture.depths.nearest)),
@@ -218,7 +218,7 @@ Json look_controls(const Presets &lenses) {
     return all;
 }
 
-ObjectMap object_map(const ShotFrame &frame) {
+ObjectMap object_map(const LoadedFrame &frame) {
     struct Object {
         std::size_t number;
         DepthExtent depths;
@@ -260,7 +260,7 @@ ObjectMap object_map(const ShotFrame &frame) {
     return map;
 }
 
-Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
+Json sample_facts(const LoadedFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
     Json samples = Json::array();
     if (!reduced(frame.in.ldi.windows.data, frame.across).intersects(pixel))
         return samples; // however far away

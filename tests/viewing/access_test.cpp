@@ -1,11 +1,11 @@
-#include "viewing/door.h"
+#include "viewing/access.h"
 
 #include <gtest/gtest.h>
 
 namespace sparselens {
 namespace {
 
-TEST(Door, KeysAreRandomAndComparedWhole) {
+TEST(Access, KeysAreRandomAndComparedWhole) {
     const std::string key = random_key();
     EXPECT_EQ(key.size(), 32u);
     EXPECT_NE(key, random_key());
@@ -20,7 +20,7 @@ TEST(Door, KeysAreRandomAndComparedWhole) {
     }
 }
 
-TEST(Door, HostIsThisMachine) {
+TEST(Access, HostIsThisMachine) {
     for (const char *host : {"127.0.0.1", "127.0.0.1:8080", "localhost", "localhost:1", "[::1]:65535"})
         EXPECT_TRUE(is_loopback_host(host)) << host;
     for (const char *host :
@@ -29,7 +29,7 @@ TEST(Door, HostIsThisMachine) {
         EXPECT_FALSE(is_loopback_host(host)) << host;
 }
 
-TEST(Door, OriginIsTheServerItself) {
+TEST(Access, OriginIsTheServerItself) {
     EXPECT_TRUE(is_own_origin("", "127.0.0.1:80"));
     EXPECT_TRUE(is_own_origin("http://127.0.0.1:80", "127.0.0.1:80"));
     for (const char *origin : {"null", "http://example.org", "https://127.0.0.1:80", "http://127.0.0.1:8",

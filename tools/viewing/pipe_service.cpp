@@ -1,4 +1,4 @@
-#include "viewing/gatherer.h"
+#include "viewing/pipe_service.h"
 
 #include "base/error.h"
 #include "chain/notices.h"
@@ -10,7 +10,7 @@
 #include "io/lens_file.h"
 #include "io/moment_files.h"
 #include "options/gather_options.h"
-#include "viewing/shot.h"
+#include "viewing/sequence.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -68,14 +68,14 @@ std::vector<std::size_t> chosen(const std::vector<std::string> &names, const Tak
 
 } // namespace
 
-Gatherer::Gatherer(const ToolContext &tool)
+PipeService::PipeService(const ToolContext &tool)
     : tool_(tool), presets_(installed_lenses()),
       pictures_(memory_for_frames(tool.max_memory), [](const Made &made) {
           return std::uint64_t(made.picture.image.values.size() * sizeof(float));
       }) {}
 
 // The colours are those that the configuration of OpenColorIO gives a file of such a name.
-void Gatherer::take(PipeRequest &request, std::string pixels) {
+void PipeService::take(PipeRequest &request, std::string pixels) {
     auto &settings = request.source.settings;
     if (!settings.contains("colorspace")) {
         const auto config = settings.find("colorconfig");
@@ -85,7 +85,7 @@ void Gatherer::take(PipeRequest &request, std::string pixels) {
     request.source.file = handed_.path_of(*request.handed, std::move(pixels));
 }
 
-Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
+PipeService::Job PipeService::job_of(const PipeRequest &request) const {
     Job job;
     job.shown = request.shown;
     job.words = words_of(request.source, presets_);
@@ -101,7 +101,7 @@ Gatherer::Job Gatherer::job_of(const PipeRequest &request) const {
 }
 
 // Forgets the LDI if one of the files has changed since they were last read.
-void Gatherer::forget_changed(const Job &job) {
+void PipeService::forget_changed(const Job &job) {
     constexpr std::size_t most_files = 4096;
     bool changed = stamps_.size() > most_files;
     if (changed) stamps_.clear();
@@ -113,12 +113,12 @@ void Gatherer::forget_changed(const Job &job) {
     if (changed) cache_ = LdiCache();
 }
 
-Gatherer::Made Gatherer::make(const Job &job, const Make &make) {
+PipeService::Made PipeService::make(const Job &job, const Make &make) {
     forget_changed(job);
     Made made;
     const Tell tell = [&](const Notice &notice) {
         if (level_of(notice) != NoticeLevel::note)
-            made.warnings.push_back(HandedPictures::in_words(one_line(with_options(words_of(notice)))));
+            made.warnings.push_back(InMemoryPictures::in_words(one_line(with_options(words_of(notice)))));
     };
     made.picture = make({*tool_.progress, tell, &device_});
     ToolContext gather;
@@ -127,14 +127,14 @@ Gatherer::Made Gatherer::make(const Job &job, const Make &make) {
     return made;
 }
 
-void Gatherer::to_stored_colours(const Job &job, Image &image, Imf::Header &header) {
+void PipeService::to_stored_colours(const Job &job, Image &image, Imf::Header &header) {
     if (job.shown)
         transform_colours(output_transform(job.command.colour, header), image);
     else
         to_exr_space(job.command.colour, "an EXR picture", image, header);
 }
 
-const Gatherer::Made &Gatherer::described(const Job &job) {
+const PipeService::Made &PipeService::described(const Job &job) {
     // The window of a shutter's picture holds those of all moments, so they have to be read.
     if (names_moments(job.command.input)) return taken(job);
     const auto describe = [&](const PictureWork &work) {
@@ -150,7 +150,7 @@ const Gatherer::Made &Gatherer::described(const Job &job) {
     return descriptions_.get(job, [&](const Job &) { return make(job, describe); });
 }
 
-const Gatherer::Made &Gatherer::taken(const Job &job) {
+const PipeService::Made &PipeService::taken(const Job &job) {
     const auto take = [&](const PictureWork &work) {
         TakenPicture picture = take_moments(cache_, true, job.command, work);
         to_stored_colours(job, picture.image, picture.header);
@@ -160,11 +160,11 @@ const Gatherer::Made &Gatherer::taken(const Job &job) {
     return pictures_.get(job, [&](const Job &) { return make(job, take); });
 }
 
-Gatherer::Answer Gatherer::facts(const Job &job) {
+PipeService::Answer PipeService::facts(const Job &job) {
     const Made &made = described(job);
     forget_changed(job);
     const Tell quiet = [](const Notice &) {};
-    ShotPicture shot;
+    SequencePicture shot;
     static_cast<TakenPicture &>(shot) = made.picture;
     shot.warnings = made.warnings;
     shot.depths = depth_extent(cache_.load(middle_moment(job.command), quiet).ldi);
@@ -175,7 +175,7 @@ Gatherer::Answer Gatherer::facts(const Job &job) {
 }
 
 // The number of sizes: each is half of the last one, the smallest has a pixel.
-int Gatherer::levels_of(const Job &job, const Made &made) {
+int PipeService::levels_of(const Job &job, const Made &made) {
     const Windows &windows = made.picture.image.windows;
     const int side = std::max(windows.width(), windows.height()), proxy = job.command.windows.proxy;
     int levels = 1;
@@ -183,7 +183,7 @@ int Gatherer::levels_of(const Job &job, const Made &made) {
     return levels;
 }
 
-Gatherer::Answer Gatherer::header(const Job &job, const Made &made) {
+PipeService::Answer PipeService::header(const Job &job, const Made &made) {
     Json said = layout_of(made.picture);
     const Imath::V2i first = made.picture.image.windows.data.min;
     const bool has_values = made.picture.image.values.size() > made.picture.image.channels.size();
@@ -197,7 +197,7 @@ Gatherer::Answer Gatherer::header(const Job &job, const Made &made) {
             flat_exr(command.input, pixel, made.picture.header, command.compression, command.tiles)};
 }
 
-Gatherer::Answer Gatherer::pixels(const Made &made, const PipeRequest &request) {
+PipeService::Answer PipeService::pixels(const Made &made, const PipeRequest &request) {
     const Imath::Box2i &data = made.picture.image.windows.data;
     const Imath::Box2i box = request.box.value_or(data);
     if (box.min.x < data.min.x || box.min.y < data.min.y || box.max.x > data.max.x || box.max.y > data.max.y)
@@ -209,7 +209,7 @@ Gatherer::Answer Gatherer::pixels(const Made &made, const PipeRequest &request) 
     return {std::move(said), stored_pixels(made.picture.image, box, chosen(request.channels, made.picture))};
 }
 
-Gatherer::Answer Gatherer::answer(const PipeRequest &request) {
+PipeService::Answer PipeService::answer(const PipeRequest &request) {
     const Job job = job_of(request);
     switch (request.ask) {
     case Ask::facts: return facts(job);

@@ -18,9 +18,9 @@
 
 namespace sparselens {
 
-class Gatherer {
+class PipeService {
 public:
-    explicit Gatherer(const ToolContext &tool);
+    explicit PipeService(const ToolContext &tool);
 
     struct Answer {
         nlohmann::json said;
@@ -70,7 +70,7 @@ private:
     std::map<std::string, std::string> stamps_; // of the files that were read
     LdiCache cache_;
     GatherDevice device_;
-    HandedPictures handed_;
+    InMemoryPictures handed_;
     static constexpr std::uint64_t most_descriptions = 64;
     Kept<Job, Made> pictures_, descriptions_{most_descriptions};
 };

@@ -7,8 +7,8 @@
 #include "harness/tool.h"
 #include "io/display/shown_picture.h"
 #include "options/gather_options.h"
+#include "viewing/frame_cache.h"
 #include "viewing/page_request.h"
-#include "viewing/reel.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,35 +20,35 @@
 namespace sparselens {
 
 // A picture through a lens: linear R, G, B and A.
-struct ShotPicture : TakenPicture {
+struct SequencePicture : TakenPicture {
     DepthExtent depths = {};
     std::vector<std::string> warnings = {};
 };
 
-class Shot {
+class Sequence {
 public:
     // Reads the file of the first of these frames (at least one). Throws as dof-gather does.
-    Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool);
+    Sequence(const std::vector<GatherCommand> &frames, const ToolContext &tool);
 
     // The frame that a picture is made of. Any number of threads may call it. Throws as dof-gather does.
-    Reel::Held frame(const GatherCommand &options);
-    const Reel &reel() const { return reel_; }
+    FrameCache::Held frame(const GatherCommand &options);
+    const FrameCache &frames() const { return frames_; }
 
     // The picture that dof-gather would write; of the moments of a shutter, a proxy shows the middle one. One thread at a
     // time. Throws as dof-gather does, and what `progress`
     // throws. `watch` is told of the picture's pixels only if these are gathered directly.
-    ShotPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
-                      const TileWatch *watch = nullptr);
+    SequencePicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
+                          const TileWatch *watch = nullptr);
 
     // Converts linear colours of the frame's space for PNG, after `exposure` stops.
-    static ShownPixels displayed(Image image, double exposure, const ShotFrame &frame);
+    static ShownPixels displayed(Image image, double exposure, const LoadedFrame &frame);
 
 private:
-    GatherWindows small(const Reel::Held &frame, const WindowOptions &options);
-    const Ldi *holdout(const GatherCommand &options, const Reel::Held &frame);
+    GatherWindows small(const FrameCache::Held &frame, const WindowOptions &options);
+    const Ldi *holdout(const GatherCommand &options, const FrameCache::Held &frame);
 
     struct OfFrame {
-        std::weak_ptr<const ShotFrame> frame; // only the reel owns it
+        std::weak_ptr<const LoadedFrame> frame; // only the cache owns it
         int proxy;
         std::string holdout = {};
         bool operator==(const OfFrame &other) const {
@@ -56,17 +56,17 @@ private:
         }
     };
     // A frame reduced to the size of a proxy.
-    struct Small {
+    struct CachedProxy {
         PackedRows ldi;
         GatherWindows windows;
     };
     // How many proxies or holdouts are kept: a page settles on one, and tries others on the way to it.
     static constexpr std::uint64_t most_small = 2;
 
-    Reel reel_;
+    FrameCache frames_;
     GatherDevice device_;
     LooksReader looks_;
-    Kept<OfFrame, Small> small_{most_small};
+    Kept<OfFrame, CachedProxy> small_{most_small};
     Kept<OfFrame, Ldi> holdouts_{most_small};
 };
 
@@ -74,14 +74,14 @@ private:
 // "inf".
 
 // Focus, f-number, sharp range (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
-nlohmann::json lens_facts(const ShotPicture &picture);
+nlohmann::json lens_facts(const SequencePicture &picture);
 
 // The controls of the looks of the lens, from the table of parameters: a choice of words, a number or a pair; which of
 // them can be keyed by frame.
 nlohmann::json look_controls(const Presets &lenses);
 
 // The samples of a pixel of the picture (of its middle sub-pixel), front to back: depth, CoC, alpha, colour, objects.
-nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);
+nlohmann::json sample_facts(const LoadedFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);
 
 // The frontmost objects in the pixels of the picture. `said`: for each object its name, and focus and hyperfocal
 // distance of the widest lens for which all of it is sharp. `numbers`: two bytes for each pixel, the lower first: the
@@ -90,7 +90,7 @@ struct ObjectMap {
     nlohmann::json said;
     std::vector<std::uint8_t> numbers;
 };
-ObjectMap object_map(const ShotFrame &frame);
+ObjectMap object_map(const LoadedFrame &frame);
 
 // A number that JSON can hold, else "inf".
 nlohmann::json json_number(double value);
