@@ -35,8 +35,8 @@ void accumulate_files(const AccumulateOptions &options, const ToolContext &tool)
     const Image picture = in_type(image, options.type);
     Imf::Header header = header_of(files);
     append_history(header, tool, options.history);
-    tell_clamped(tool.tell(), options.output,
-                 write_flat_exr(options.output, picture, header, options.compression));
+    notify_clamped(tool.notify(), options.output,
+                   write_flat_exr(options.output, picture, header, options.compression));
 }
 
 } // namespace

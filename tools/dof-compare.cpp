@@ -89,7 +89,7 @@ void add_options(CLI::App &app, Options &options) {
 
 Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path, options.depth.picture);
-    tell_reading(tool.tell(), path, file.notes, file.warnings);
+    notify_reading(tool.notify(), path, file.notes, file.warnings);
     return std::move(file.image);
 }
 
@@ -128,7 +128,7 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
-        bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool.tell());
+        bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool.notify());
     const std::size_t count = bits.empty() ? 0 : region_names.size();
     auto figures = image_error(image, reference, bits, count);
     if (second) {

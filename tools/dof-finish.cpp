@@ -27,8 +27,8 @@ namespace {
 // With linear colours.
 FlatFile read(const std::string &path, const FinishCommand &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path);
-    tell_reading(tool.tell(), path, file.notes, file.warnings);
-    file.header = to_linear(tool.tell(), options.colour, path, file.header, file.image);
+    notify_reading(tool.notify(), path, file.notes, file.warnings);
+    file.header = to_linear(tool.notify(), options.colour, path, file.header, file.image);
     return file;
 }
 
@@ -36,7 +36,7 @@ FlatFile read(const std::string &path, const FinishCommand &options, const ToolC
 FlatFile read_render(const std::string &path, const FlatFile &gathered, const FinishCommand &options,
                      const ToolContext &tool) {
     FlatFile file = read(path, options, tool);
-    to_space_of(tool.tell(), options.colour, {gathered.header, options.gathered}, {file.header, path},
+    to_space_of(tool.notify(), options.colour, {gathered.header, options.gathered}, {file.header, path},
                 file.image);
     return file;
 }
@@ -59,7 +59,7 @@ TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<doub
     TwoHalves halves(gathered.image);
     for (std::size_t k = 0; k < paths.size(); ++k) {
         FlatFile file = read_render(paths[k], gathered, options, tool);
-        tell_other_lens(tool.tell(), gathered.header, file.header, paths[k]);
+        notify_other_lens(tool.notify(), gathered.header, file.header, paths[k]);
         (halves.*add)({paths[k], std::move(file.image), samples[k]});
     }
     return halves;
@@ -185,10 +185,10 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     append_history(file.header, tool, options.history);
     Stats stats = say_error(options, finished, tool);
     if (!options.ask.empty()) ask(options, finished, file.header, stats);
-    tell_clamped(tool.tell(), options.output,
-                 write_picture(tool.tell(), options.colour, options.output,
-                               in_type(shown(std::move(finished), options.show), options.type), file.header,
-                               options.compression));
+    notify_clamped(tool.notify(), options.output,
+                   write_picture(tool.notify(), options.colour, options.output,
+                                 in_type(shown(std::move(finished), options.show), options.type), file.header,
+                                 options.compression));
     write_stats(tool, stats);
 }
 

@@ -42,16 +42,16 @@ Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
 }
 
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
-    TakenPicture made = take_moments(cache, tool.keeps, options, {*tool.progress, tool.tell(), &device});
+    TakenPicture made = take_moments(cache, tool.keeps, options, {*tool.progress, tool.notify(), &device});
     std::optional<Timed> writing(std::in_place, *tool.progress, "write");
     append_history(made.header, tool, options.history);
     const Stats stats = gather_stats(cache, made);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, made.depth, made.header, options.compression, options.tiles);
-    tell_clamped(tool.tell(), options.output,
-                 write_picture(tool.tell(), options.colour, options.output,
-                               in_type(std::move(made.image), options.type), made.header, options.compression,
-                               options.tiles));
+    notify_clamped(tool.notify(), options.output,
+                   write_picture(tool.notify(), options.colour, options.output,
+                                 in_type(std::move(made.image), options.type), made.header,
+                                 options.compression, options.tiles));
     writing.reset();
     write_stats(tool, stats);
 }

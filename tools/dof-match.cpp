@@ -51,16 +51,16 @@ public:
         if (frame.number) tool_.say(fmt::format("frame {}", *frame.number));
         LdiRequest request = options_;
         request.input = frame.ldi;
-        return cache_.load(request, tool_.tell());
+        return cache_.load(request, tool_.notify());
     }
     Image plate(const FrameFiles &frame) {
         if (is_shown_picture(frame.plate)) {
             Image image = read_shown_picture(frame.plate);
-            if (!holds_linear_light(frame.plate)) to_linear(tool_.tell(), {}, frame.plate, {}, image);
+            if (!holds_linear_light(frame.plate)) to_linear(tool_.notify(), {}, frame.plate, {}, image);
             return image;
         }
         FlatFile plate = read_flat_exr(frame.plate);
-        tell_reading(tool_.tell(), frame.plate, plate.notes, plate.warnings);
+        notify_reading(tool_.notify(), frame.plate, plate.notes, plate.warnings);
         return std::move(plate.image);
     }
 

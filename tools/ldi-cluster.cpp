@@ -64,10 +64,10 @@ Stats cluster_stats(const ClusteredLdi &made) {
 }
 
 void run(const Options &options, const ToolContext &tool) {
-    ClusteredLdi made = cluster_ldi(options, *tool.progress, tool.tell());
+    ClusteredLdi made = cluster_ldi(options, *tool.progress, tool.notify());
     append_history(made.header, tool, options.history);
-    tell_clamped(tool.tell(), options.output,
-                 write_ldi(options.output, made.ldi, made.header, options.compression));
+    notify_clamped(tool.notify(), options.output,
+                   write_ldi(options.output, made.ldi, made.header, options.compression));
     write_stats(tool, cluster_stats(made));
 }
 

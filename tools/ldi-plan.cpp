@@ -3,7 +3,7 @@
 #include "chain/notices.h"
 #include "chain/plan_views.h"
 #include "chain/usd_shot.h"
-#include "harness/commands/named_files.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/tool.h"
 #include "io/moment_files.h"
 #include "io/plan_file.h"
@@ -100,7 +100,7 @@ void write_shot(const PlanCommand &options, const ToolContext &tool, UsdViews &a
     if (!options.output.empty()) throw UsageError("`output`: a plan needs a centre view");
     ShotRequest request{options.camera, options.lens, options.plan.views, options.size};
     if (!request.camera.frame) request.camera.frame = tool.frame;
-    UsdViews views = views_of_shot(request, tool.tell());
+    UsdViews views = views_of_shot(request, tool.notify());
     all_frames.frames.merge(views.frames);
     views.frames = all_frames.frames;
     write_layer(options, views);
@@ -156,10 +156,10 @@ void run(const PlanCommand &asked_for, const ToolContext &tool, UsdViews &all_fr
     if (!asked.frame) asked.frame = tool.frame;
     const StatedCameras stated(asked);
     const OpenedView centre = open_centre(options, stated);
-    tell_reading(tool.tell(), options.centre, centre.notes, centre.warnings);
-    tell_invalid_values(tool.tell(), options.centre, centre.bad);
+    notify_reading(tool.notify(), options.centre, centre.notes, centre.warnings);
+    notify_invalid_values(tool.notify(), options.centre, centre.bad);
     PlannedViews made = plan_views(centre, options.plan, options.lens, options.supersample, options.rays,
-                                   *tool.progress, tool.tell());
+                                   *tool.progress, tool.notify());
     made.setting.centre = options.centre;
     if (moments.size() > 1)
         made.setting.moments = plan_moments(open_centre(for_moment(asked_for, moments.front()), stated),

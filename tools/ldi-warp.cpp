@@ -32,11 +32,11 @@ void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &dev
     for (const auto &[position, file] : options.views.placed)
         request.placed.emplace_back(view_offset(position), file);
     std::optional<Timed> timed(std::in_place, *tool.progress, "read and warp");
-    MadeLdi made = make_ldi(request, {*tool.progress, tool.tell(), &device});
+    MadeLdi made = make_ldi(request, {*tool.progress, tool.notify(), &device});
     timed.emplace(*tool.progress, "write");
     append_history(made.header, tool, options.history);
-    tell_clamped(tool.tell(), options.output,
-                 write_ldi(options.output, made.ldi, made.header, options.compression));
+    notify_clamped(tool.notify(), options.output,
+                   write_ldi(options.output, made.ldi, made.header, options.compression));
     timed.reset();
     write_stats(tool, warp_stats(made));
 }

@@ -54,7 +54,7 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent
     tool.progress->start("averaging", files.views.size());
     for (LensViewFile &file : files.views) {
         FlatFile read = file.take_pixels();
-        tell_reading(tool.tell(), file.path, read.notes, read.warnings);
+        notify_reading(tool.notify(), file.path, read.notes, read.warnings);
         Image view = transparent_outside ? with_surroundings(file.path, read) : std::move(read.image);
         if (!sum) sum = start_accumulation(view.windows, view.channels);
         const std::size_t bad = fill_nonfinite(view, sum->channels);

@@ -27,10 +27,10 @@ namespace sparselens {
 // anything. First touching the memory takes as long as clearing it, and here the threads that set the entries share
 // that work.
 template <typename T>
-struct LeftUnset : std::allocator<T> {
+struct DefaultInitAllocator : std::allocator<T> {
     template <typename U>
     struct rebind {
-        using other = LeftUnset<U>;
+        using other = DefaultInitAllocator<U>;
     };
     using std::allocator<T>::allocator;
     template <typename U>
@@ -44,7 +44,7 @@ struct LeftUnset : std::allocator<T> {
 };
 
 template <typename T>
-using LargeArray = std::vector<T, LeftUnset<T>>;
+using LargeArray = std::vector<T, DefaultInitAllocator<T>>;
 
 // How a channel is stored in a file. In memory every value is a float. An id channel (uint32) keeps its 32 bits in
 // the place of the float (std::bit_cast): ids may be copied, but calculations with them are meaningless.

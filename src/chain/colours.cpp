@@ -33,7 +33,7 @@ bool is_pipe(const std::string &path) { return path == "-" || path == display_na
 
 // The configuration; empty if $OCIO names one that cannot be read, or has no scene-linear space, and it is needed for a
 // guess only.
-std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOptions &options) {
+std::optional<ColourConfig> config_if_readable(const Notify &notify, const ColourOptions &options) {
     try {
         ColourConfig config(options.config);
         if (options.config.empty() && options.input_space.empty()) (void)config.scene_linear();
@@ -42,7 +42,8 @@ std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOpt
         if (!options.config.empty() || !options.input_space.empty()) throw;
         static std::once_flag said; // once for all files
         std::call_once(said, [&] {
-            tell({.kind = NoticeKind::no_colorconfig, .values = {error.what()}, .parameter = "colorconfig"});
+            notify(
+                {.kind = NoticeKind::no_colorconfig, .values = {error.what()}, .parameter = "colorconfig"});
         });
         return {};
     }
@@ -53,28 +54,28 @@ struct LinearColours {
     std::optional<ColourTransform> transform = {}; // into that space; empty: nothing to do
 };
 
-LinearColours linear_colours(const Tell &tell, const ColourOptions &options, const std::string &path,
+LinearColours linear_colours(const Notify &notify, const ColourOptions &options, const std::string &path,
                              const Imf::Header &header) {
     const bool says = states_space(header), asked = !options.input_space.empty();
     const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
     if (!asked && !says && (ours || is_pipe(path))) return {header};
-    const std::optional<ColourConfig> readable = config_if_readable(tell, options);
+    const std::optional<ColourConfig> readable = config_if_readable(notify, options);
     if (!readable) return {header};
     const ColourConfig &config = *readable;
     std::string from = options.input_space;
     if (const auto stated = stated_space(config, header); stated && !asked) {
         if (!stated->space) {
-            tell({stated->attribute == "chromaticities" ? NoticeKind::unnamed_chromaticities
-                                                        : NoticeKind::unnamed_space,
-                  display_name(path),
-                  {stated->attribute},
-                  "colorspace"});
+            notify({stated->attribute == "chromaticities" ? NoticeKind::unnamed_chromaticities
+                                                          : NoticeKind::unnamed_space,
+                    display_name(path),
+                    {stated->attribute},
+                    "colorspace"});
             return {header};
         }
         from = *stated->space;
     }
     if (from.empty()) from = config.space_of_file(path);
-    tell({NoticeKind::colour_space, display_name(path), {from}});
+    notify({NoticeKind::colour_space, display_name(path), {from}});
     const auto own = config.chromaticities_of(from);
     const std::string to = own ? from : config.scene_linear();
     // OpenEXR defines that a file without the attribute has Rec.709 primaries, so Rec.709 need not be stated.
@@ -93,22 +94,22 @@ std::string space_of(const ColourConfig &config, const Imf::Header &header) {
 
 } // namespace
 
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Ldi &ldi) {
-    LinearColours to = linear_colours(tell, options, path, header);
+    LinearColours to = linear_colours(notify, options, path, header);
     const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
     if (to.transform) transform_colours(*to.transform, ldi.channels, planes);
     return std::move(to.header);
 }
 
-bool is_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+bool is_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                const Imf::Header &header) {
-    return !linear_colours(tell, options, path, header).transform;
+    return !linear_colours(notify, options, path, header).transform;
 }
 
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, PackedView &view) {
-    LinearColours to = linear_colours(tell, options, path, header);
+    LinearColours to = linear_colours(notify, options, path, header);
     if (!to.transform) return std::move(to.header);
     if (view.samples.deep()) {
         Ldi samples = view.samples.as_ldi();
@@ -124,9 +125,9 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
     return std::move(to.header);
 }
 
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Image &image) {
-    LinearColours to = linear_colours(tell, options, path, header);
+    LinearColours to = linear_colours(notify, options, path, header);
     if (to.transform) transform_colours(*to.transform, image);
     return std::move(to.header);
 }
@@ -137,10 +138,10 @@ bool same_chromaticities(const Imf::Header &a, const Imf::Header &b) {
     return !stated || same_chromaticities(Imf::chromaticities(a), Imf::chromaticities(b));
 }
 
-void to_space_of(const Tell &tell, const ColourOptions &options, const NamedHeader &wanted,
+void to_space_of(const Notify &notify, const ColourOptions &options, const NamedHeader &wanted,
                  const NamedHeader &stated, Image &image) {
     if (same_chromaticities(wanted.header, stated.header)) return;
-    tell({NoticeKind::converted, stated.name, {wanted.name}});
+    notify({NoticeKind::converted, stated.name, {wanted.name}});
     const ColourConfig config(options.config);
     transform_colours(config.between(space_of(config, stated.header), space_of(config, wanted.header)),
                       image);
@@ -171,7 +172,7 @@ bool to_shown_colours(const ColourOptions &options, const std::string &path, Ima
     return true;
 }
 
-std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
+std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression, int tiles) {
     Imf::Header header = metadata;
@@ -179,12 +180,12 @@ std::size_t write_picture(const Tell &tell, const ColourOptions &options, const 
         to_exr_space(options, path, image, header);
         if (compression)
             if (const std::string channel = data_changed_by(*compression, image.channels); !channel.empty())
-                tell({NoticeKind::changed_data, path, {channel}, "compression"});
+                notify({NoticeKind::changed_data, path, {channel}, "compression"});
         return write_flat_exr(path, image, header, compression, tiles);
     }
     if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
     if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
-    if (to_shown_colours(options, path, image, header)) tell({NoticeKind::displayed, path});
+    if (to_shown_colours(options, path, image, header)) notify({NoticeKind::displayed, path});
     write_shown_picture(path, image);
     return 0;
 }
@@ -208,22 +209,23 @@ struct FlatLight {
 };
 
 // `colour` says how its colours are made linear; null: they are linear. `path` is for messages.
-FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell) {
+FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour,
+                   const Notify &notify) {
     const std::string name = display_name(path);
     // Every pixel is placed in front of the camera, so that its values are repaired like those of a view.
     View view{name, light_and_coverage(file.image), {}};
     view.z.assign(view.image.windows.pixels(), 1);
     const InvalidValues bad = sanitize(view);
-    tell_reading(tell, name, file.notes, file.warnings);
-    tell_invalid_values(tell, name, bad);
+    notify_reading(notify, name, file.notes, file.warnings);
+    notify_invalid_values(notify, name, bad);
     FlatLight light{name, std::move(view.image), std::move(file.header)};
-    if (colour) light.header = to_linear(tell, *colour, path, light.header, light.image);
+    if (colour) light.header = to_linear(notify, *colour, path, light.header, light.image);
     return light;
 }
 
 // Reads a flat EXR. `choice` is that of the picture to which it belongs, except for its depth.
-FlatFile read_partner(const std::string &path, PictureChoice choice, const Tell &tell) {
-    tell({NoticeKind::reading, path});
+FlatFile read_partner(const std::string &path, PictureChoice choice, const Notify &notify) {
+    notify({NoticeKind::reading, path});
     choice.depth.clear();
     choice.depth_file.clear();
     return read_flat_exr(path, choice);
@@ -237,16 +239,16 @@ void check_count(std::size_t denoised, std::size_t views) {
 }
 
 // The pictures from files, then those in memory, whose colours are linear.
-std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell &tell) {
+std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Notify &notify) {
     const ColourOptions *colour = request.colour ? &*request.colour : nullptr;
     std::vector<DenoisedPicture> pictures;
     for (const std::string &path : request.denoised)
         pictures.push_back(
-            {path, light_of(read_partner(path, request.depth.picture, tell), path, colour, tell).image});
+            {path, light_of(read_partner(path, request.depth.picture, notify), path, colour, notify).image});
     for (const DenoisedPicture &picture : request.denoised_pictures) {
         FlatFile file;
         file.image = picture.image;
-        pictures.push_back({picture.name, light_of(std::move(file), picture.name, nullptr, tell).image});
+        pictures.push_back({picture.name, light_of(std::move(file), picture.name, nullptr, notify).image});
     }
     return pictures;
 }
@@ -254,8 +256,8 @@ std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell
 } // namespace
 
 void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vector<PackedView> &views,
-                   const Tell &tell) {
-    std::vector<DenoisedPicture> denoised = pictures_of(request, tell);
+                   const Notify &notify) {
+    std::vector<DenoisedPicture> denoised = pictures_of(request, notify);
     if (!denoised.empty()) check_count(denoised.size(), views.size());
     if (!request.noisy.empty())
         for (PackedView &view : views) denoised.push_back(part_denoised(view, request.noisy));
@@ -301,19 +303,20 @@ KeptNames kept_names(const std::vector<Channel> &channels, const Imf::Header &de
     return kept;
 }
 
-void tell_recolored(const Recolored &made, const std::string &deep, const FlatLight &beauty,
-                    const Tell &tell) {
+void notify_recolored(const Recolored &made, const std::string &deep, const FlatLight &beauty,
+                      const Notify &notify) {
     if (made.differ > 0)
-        tell({NoticeKind::coverage_differs, beauty.name, {deep, made.differ, beauty.image.windows.pixels()}});
-    if (made.beyond > 0) tell({NoticeKind::without_colours, beauty.name, {deep, made.beyond}});
-    if (made.infinite > 0) tell({NoticeKind::light_at_infinity, beauty.name, {made.infinite}});
+        notify(
+            {NoticeKind::coverage_differs, beauty.name, {deep, made.differ, beauty.image.windows.pixels()}});
+    if (made.beyond > 0) notify({NoticeKind::without_colours, beauty.name, {deep, made.beyond}});
+    if (made.infinite > 0) notify({NoticeKind::light_at_infinity, beauty.name, {made.infinite}});
 }
 
 } // namespace
 
 void recolor_by(FlatFile file, const std::string &path, const ColourOptions *colour, OpenedLdi &ldi,
-                const Tell &tell) {
-    const FlatLight beauty = light_of(std::move(file), path, colour, tell);
+                const Notify &notify) {
+    const FlatLight beauty = light_of(std::move(file), path, colour, notify);
     require_colours(beauty.image.channels, beauty.name);
     require_one_frame(ldi, beauty);
     Recolored made = recolor(std::move(ldi.ldi), beauty.image);
@@ -324,13 +327,13 @@ void recolor_by(FlatFile file, const std::string &path, const ColourOptions *col
     set_kept_names(ldi.header, names);
     ldi.header.dataWindow() = ldi.ldi.windows.data;
     write_picture_window(ldi.header, ldi.ldi.windows.data);
-    tell_recolored(made, ldi.name, beauty, tell);
-    tell_layers(tell, beauty.name, ldi.ldi.channels);
+    notify_recolored(made, ldi.name, beauty, notify);
+    notify_layers(notify, beauty.name, ldi.ldi.channels);
 }
 
 void recolor_by(const std::string &path, const PictureChoice &choice, const ColourOptions &colour,
-                OpenedLdi &ldi, const Tell &tell) {
-    if (!path.empty()) recolor_by(read_partner(path, choice, tell), path, &colour, ldi, tell);
+                OpenedLdi &ldi, const Notify &notify) {
+    if (!path.empty()) recolor_by(read_partner(path, choice, notify), path, &colour, ldi, notify);
 }
 
 } // namespace sparselens

@@ -28,11 +28,11 @@ struct ColourOptions {
 // space in the file is `colorspace`; if this is empty, the space that the header states; otherwise files of these tools
 // are scene-linear, and the file rules of the configuration name the space of other files. Colours in a linear space
 // with known chromaticities stay as they are; all others become scene-linear.
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Ldi &ldi);
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, PackedView &view);
-Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Image &image);
 
 struct NamedHeader {
@@ -42,14 +42,14 @@ struct NamedHeader {
 
 // Makes linear colours, in the space that their header states, those of the space that another header states, and says so
 // if the two differ.
-void to_space_of(const Tell &tell, const ColourOptions &options, const NamedHeader &wanted,
+void to_space_of(const Notify &notify, const ColourOptions &options, const NamedHeader &wanted,
                  const NamedHeader &stated, Image &image);
 
 // Whether two headers state the same chromaticities, as far as headers round them, or neither states any.
 bool same_chromaticities(const Imf::Header &a, const Imf::Header &b);
 
 // Whether to_linear() leaves the colours of such a file unchanged.
-bool is_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+bool is_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                const Imf::Header &header);
 
 // The transform from linear colours, in the space that `metadata` states, to those of a PNG; see write_picture().
@@ -70,7 +70,7 @@ bool to_shown_colours(const ColourOptions &options, const std::string &path, Ima
 // and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws
 // UsageError for a display with an OpenEXR file, and for a compression or tiles with any other. Returns what
 // write_flat_exr returns.
-std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
+std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression = {}, int tiles = 0);
 
@@ -82,18 +82,18 @@ struct WarpOptions;  // warp/warp.h
 // pictures come from files, which it opens and makes linear, from memory, or from the views themselves, if these hold
 // both. Does nothing if there are none. Throws UsageError if their number is not that of the views.
 void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vector<PackedView> &views,
-                   const Tell &tell);
+                   const Notify &notify);
 
 // Gives an LDI the colours of the picture (deep/recolor.h). Its header then states the colour space and the names of
 // the file's colours. `colour` says how these are made linear; null: they are linear. `path` is for messages. Throws
 // Error, naming both files, if their display windows or the shapes of their pixels differ, or they have no pixel in
 // common; and if the file has no colours.
 void recolor_by(FlatFile file, const std::string &path, const ColourOptions *colour, OpenedLdi &ldi,
-                const Tell &tell);
+                const Notify &notify);
 
 // The same with a flat EXR. `choice` is that of the picture with the samples, except for its depth. Does nothing if the
 // path is empty. Throws Error, naming the file, if it is deep or cannot be read.
 void recolor_by(const std::string &path, const PictureChoice &choice, const ColourOptions &colour,
-                OpenedLdi &ldi, const Tell &tell);
+                OpenedLdi &ldi, const Notify &notify);
 
 } // namespace sparselens

@@ -27,14 +27,14 @@ public:
     // One piece of work at a time has the device, others wait. Reports which device it is and what it did. Throws Error
     // if that device does not exist; if it cannot be used, it gives a warning and uses the CPU. The progress counts the
     // device's times.
-    void with(const std::string &word, const Tell &tell, Progress &progress,
+    void with(const std::string &word, const Notify &notify, Progress &progress,
               const std::function<void(Device *)> &work);
 
     // Closes the device.
     void release();
 
 private:
-    void look_for(const std::string &word, const Tell &tell);
+    void look_for(const std::string &word, const Notify &notify);
 
     Open open_;
     DeviceNotices notices_;

@@ -203,7 +203,7 @@ void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const Highlight
 
 namespace {
 
-std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
+std::vector<std::string> keep_and_notify(Ldi &ldi, const std::string &channels) {
     const std::vector<Channel> before = ldi.channels;
     keep_channels(ldi, channels);
     std::vector<std::string> left_out;
@@ -214,15 +214,15 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
 
 // Checks flat renders only. Deep pictures are made by programs that write them correctly, and photographs have soft
 // edges and an estimated depth.
-void check_flat_picture(const Tell &tell, const OpenedLdi &in) {
+void check_flat_picture(const Notify &notify, const OpenedLdi &in) {
     if (in.deep || in.depth == DepthMeaning::disparity) return;
-    tell_warnings(tell, picture_warnings(front_view(in.ldi, in.name),
-                                         {in.depth, in.depth_filtered, in.camera, in.unpremultiplied}));
+    notify_warnings(notify, picture_warnings(front_view(in.ldi, in.name),
+                                             {in.depth, in.depth_filtered, in.camera, in.unpremultiplied}));
 }
 
 } // namespace
 
-OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose) {
+OpenedLdi &LdiCache::load(const LdiRequest &request, const Notify &notify, const ChooseSamples &choose) {
     const std::string &path = request.input, &recolor = request.recolor;
     const LensValues &lens = request.lens;
     const ColourOptions &colour = request.colour;
@@ -231,15 +231,15 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Tell &tell, const Cho
     read_now_ = false;
     const auto read = [&](const Key &) {
         read_now_ = true;
-        tell({NoticeKind::reading, path});
+        notify({NoticeKind::reading, path});
         OpenedLdi opened = open_ldi(path, {lens, request.depth}, choose);
-        tell_samples(tell, opened);
-        recolor_by(recolor, request.depth.picture, colour, opened, tell);
-        if (recolor.empty()) opened.header = to_linear(tell, colour, path, opened.header, opened.ldi);
-        check_flat_picture(tell, opened);
+        notify_samples(notify, opened);
+        recolor_by(recolor, request.depth.picture, colour, opened, notify);
+        if (recolor.empty()) opened.header = to_linear(notify, colour, path, opened.header, opened.ldi);
+        check_flat_picture(notify, opened);
         if (opened.depth == DepthMeaning::disparity)
             opened.flicker = flicker_.since_last(front_view(opened.ldi, opened.name));
-        channels_left_out_ = keep_and_tell(opened.ldi, request.channels);
+        channels_left_out_ = keep_and_notify(opened.ldi, request.channels);
         if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);
         return opened;
     };

@@ -98,7 +98,7 @@ public:
     // Opens, recolours and makes linear the requested file, if the last file was another, was read with other options,
     // or has been used up since. Channels that are not requested are left out. The camera is that of the file alone,
     // without `lens`. Earlier results become invalid.
-    OpenedLdi &load(const LdiRequest &request, const Tell &tell, const ChooseSamples &choose = {});
+    OpenedLdi &load(const LdiRequest &request, const Notify &notify, const ChooseSamples &choose = {});
 
     // The result of the last load(), whether it read the file, and which of its channels were left out.
     const OpenedLdi &last() const { return *last_; }

@@ -138,25 +138,25 @@ PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &r
 }
 
 // Reports views whose framing differs from that of the centre view, because a misread frustum makes ghosts, too.
-void tell_framings(const Tell &tell, std::span<const PackedView> views) {
+void notify_framings(const Notify &notify, std::span<const PackedView> views) {
     for (const PackedView &view : views.subspan(1)) {
         const Framing &centre = views[0].framing, &own = view.framing;
         if (own == Framing{.principal_point = centre.principal_point}) continue;
         const Imath::V2d axis = in_pixels(own.principal_point, view.samples.windows) -
                                 in_pixels(centre.principal_point, view.samples.windows);
-        tell({NoticeKind::framing, view.name, {axis.x, axis.y, own.zoom, own.forward}});
+        notify({NoticeKind::framing, view.name, {axis.x, axis.y, own.zoom, own.forward}});
     }
 }
 
-void tell_views(const Tell &tell, const PlacedViews &in) {
-    tell_camera(tell, in.views[0].name, in.camera);
-    tell_framings(tell, in.views);
+void notify_views(const Notify &notify, const PlacedViews &in) {
+    notify_camera(notify, in.views[0].name, in.camera);
+    notify_framings(notify, in.views);
     for (std::size_t i = 0; i < in.files.size(); ++i) {
-        tell_reading(tell, in.views[i].name, in.files[i].notes, in.files[i].warnings);
-        tell_speckles(tell, in.views[i].name, in.files[i].speckles);
-        tell_invalid_values(tell, in.views[i].name, in.files[i].bad);
+        notify_reading(notify, in.views[i].name, in.files[i].notes, in.files[i].warnings);
+        notify_speckles(notify, in.views[i].name, in.files[i].speckles);
+        notify_invalid_values(notify, in.views[i].name, in.files[i].bad);
     }
-    tell_layers(tell, in.views[0].name, in.views[0].samples.channels);
+    notify_layers(notify, in.views[0].name, in.views[0].samples.channels);
 }
 
 std::size_t pixels_given(const ViewSamples &view) {
@@ -185,7 +185,7 @@ void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &requ
         std::ranges::any_of(in.views, [](const PackedView &view) { return view.samples.deep(); });
     const auto warp_by = [&](WarpDevice *device) {
         if (device && deep)
-            work.tell(
+            work.notify(
                 {NoticeKind::file_note, in.views[0].name, {std::string("deep views are warped by the CPU")}});
         WarpOptions with = by;
         with.device = device;
@@ -193,22 +193,22 @@ void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &requ
         out.ldi = warp(std::move(in.views), with, work.progress);
     };
     if (work.device)
-        work.device->with(request.device, work.tell, work.progress, warp_by);
+        work.device->with(request.device, work.notify, work.progress, warp_by);
     else
         warp_by(nullptr);
 }
 
 MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &work) {
     check_views(in.views); // before notices about views that do not fit together
-    tell_views(work.tell, in);
+    notify_views(work.notify, in);
     MadeLdi out;
     const OpenedFile &centre = in.files[0];
     out.header = centre.header;
     for (PackedView &view : in.views)
         if (request.colour)
-            out.header = to_linear(work.tell, *request.colour, view.name, centre.header, view);
+            out.header = to_linear(work.notify, *request.colour, view.name, centre.header, view);
     const WarpOptions by = with_lens(request.warp, in.camera, in.views);
-    take_denoised(request, by, in.views, work.tell);
+    take_denoised(request, by, in.views, work.notify);
     out.camera = in.camera;
     write_camera(out.header, out.camera);
     write_picture_window(out.header, in.views[0].samples.windows.data);
@@ -216,11 +216,12 @@ MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &wor
         view_warnings(in.views, {centre.depth, centre.depth_filtered, in.camera, centre.unpremultiplied});
     count_given(in.views, out);
     warp_views(in, by, request, work, out);
-    tell_warnings(work.tell, warnings);
-    work.tell(
+    notify_warnings(work.notify, warnings);
+    work.notify(
         {.kind = NoticeKind::warped, .values = {out.views, out.ldi.samples(), out.ldi.windows.pixels()}});
     if (const auto lens = known_lens(out.camera, out.ldi.windows))
-        tell_border_reach(work.tell, request.name, out.ldi, *lens, out.camera.supersample.value_or(1), {});
+        notify_border_reach(work.notify, request.name, out.ldi, *lens, out.camera.supersample.value_or(1),
+                            {});
     return out;
 }
 
@@ -295,7 +296,7 @@ ClusterOptions options_for(const Camera &camera, const Windows &windows, const C
 }
 
 ClusteredLdi clustered(const OpenedLdi &in, const Camera &camera, const ClusterRequest &request,
-                       Progress &progress, const Tell &tell) {
+                       Progress &progress, const Notify &notify) {
     bool has_scale = false;
     const ClusterOptions by = options_for(camera, in.ldi.windows, request, has_scale);
     ClusteredLdi out{cluster(in.ldi, by, progress), in.header, camera, in.ldi.samples(), in.invisible};
@@ -304,40 +305,40 @@ ClusteredLdi clustered(const OpenedLdi &in, const Camera &camera, const ClusterR
         done.kind = NoticeKind::clustered;
         done.values.emplace_back(out.largest_error);
     }
-    tell(done);
+    notify(done);
     write_camera(out.header, out.camera);
     return out;
 }
 
 ClusteredLdi merged_and_clustered(std::vector<OpenedLdi> parts, const ClusterRequest &request,
-                                  Progress &progress, const Tell &tell) {
+                                  Progress &progress, const Notify &notify) {
     for (OpenedLdi &part : parts) part.camera = camera_for(part, request);
     OpenedLdi in = merged(std::move(parts));
-    if (request.beauty) recolor_by(*request.beauty, "recolor", nullptr, in, tell);
-    recolor_by(request.recolor, request.depth.picture, request.colour, in, tell);
-    return clustered(in, in.camera, request, progress, tell);
+    if (request.beauty) recolor_by(*request.beauty, "recolor", nullptr, in, notify);
+    recolor_by(request.recolor, request.depth.picture, request.colour, in, notify);
+    return clustered(in, in.camera, request, progress, notify);
 }
 
 } // namespace
 
-ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Tell &tell) {
+ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Notify &notify) {
     const std::vector<DepthOptions> depths =
         depths_of_pictures(request.depth, request.depth_files, request.inputs.size());
     std::vector<OpenedLdi> parts;
     for (std::size_t i = 0; i < depths.size(); ++i) {
         parts.push_back(open_ldi(request.inputs[i], {request.lens, depths[i]}));
-        tell_samples(tell, parts.back());
+        notify_samples(notify, parts.back());
     }
-    return merged_and_clustered(std::move(parts), request, progress, tell);
+    return merged_and_clustered(std::move(parts), request, progress, notify);
 }
 
 ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,
-                         Progress &progress, const Tell &tell) {
+                         Progress &progress, const Notify &notify) {
     if (ldis.size() == 1 && !request.beauty) // a single LDI is not copied
-        return clustered(*ldis[0], camera_for(*ldis[0], request), request, progress, tell);
+        return clustered(*ldis[0], camera_for(*ldis[0], request), request, progress, notify);
     std::vector<OpenedLdi> parts;
     for (const OpenedLdi *ldi : ldis) parts.push_back(*ldi);
-    return merged_and_clustered(std::move(parts), request, progress, tell);
+    return merged_and_clustered(std::move(parts), request, progress, notify);
 }
 
 } // namespace sparselens

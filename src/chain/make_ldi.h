@@ -59,7 +59,7 @@ struct MadeLdi {
 
 struct WarpWork {
     Progress &progress;
-    Tell tell;
+    Notify notify;
     WarpingDevice *device = nullptr; // finds the device of the request; null: the CPU works
 };
 
@@ -92,8 +92,8 @@ struct ClusteredLdi : Clustered {
 
 // Takes the files of the request, or LDIs in memory. Name, header and camera are those of the first. Throws Error,
 // naming the file, if its display window, its sub-pixels or its focal length differ from those of the first.
-ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Tell &tell);
+ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Notify &notify);
 ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,
-                         Progress &progress, const Tell &tell);
+                         Progress &progress, const Notify &notify);
 
 } // namespace sparselens

@@ -157,69 +157,69 @@ std::vector<std::string> layer_notes(std::span<const Channel> channels) {
     return notes;
 }
 
-void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
-                  const std::vector<std::string> &warnings) {
-    for (const std::string &note : notes) tell({NoticeKind::file_note, display_name(path), {note}});
+void notify_reading(const Notify &notify, const std::string &path, const std::vector<std::string> &notes,
+                    const std::vector<std::string> &warnings) {
+    for (const std::string &note : notes) notify({NoticeKind::file_note, display_name(path), {note}});
     for (const std::string &warning : warnings)
-        tell({NoticeKind::file_warning, display_name(path), {warning}});
+        notify({NoticeKind::file_warning, display_name(path), {warning}});
 }
 
-void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels) {
+void notify_layers(const Notify &notify, const std::string &path, std::span<const Channel> channels) {
     for (const std::string &note : layer_notes(channels))
-        tell({NoticeKind::file_note, display_name(path), {note}});
+        notify({NoticeKind::file_note, display_name(path), {note}});
 }
 
-void tell_samples(const Tell &tell, const OpenedLdi &in) {
-    tell_reading(tell, in.name, in.notes, in.warnings);
-    tell_layers(tell, in.name, in.ldi.channels);
-    tell_speckles(tell, in.name, in.speckles);
-    if (in.coverage_by_colour) tell({NoticeKind::coverage_by_colour, in.name});
-    tell_invalid_values(tell, in.name, in.bad);
+void notify_samples(const Notify &notify, const OpenedLdi &in) {
+    notify_reading(notify, in.name, in.notes, in.warnings);
+    notify_layers(notify, in.name, in.ldi.channels);
+    notify_speckles(notify, in.name, in.speckles);
+    if (in.coverage_by_colour) notify({NoticeKind::coverage_by_colour, in.name});
+    notify_invalid_values(notify, in.name, in.bad);
 }
 
-void tell_speckles(const Tell &tell, const std::string &path, std::size_t speckles) {
-    if (speckles > 0) tell({NoticeKind::speckles, display_name(path), {speckle_warning(speckles)}});
+void notify_speckles(const Notify &notify, const std::string &path, std::size_t speckles) {
+    if (speckles > 0) notify({NoticeKind::speckles, display_name(path), {speckle_warning(speckles)}});
 }
 
-void tell_camera(const Tell &tell, const std::string &path, const Camera &camera) {
-    for (const std::string &found : camera.found) tell({NoticeKind::camera, display_name(path), {found}});
+void notify_camera(const Notify &notify, const std::string &path, const Camera &camera) {
+    for (const std::string &found : camera.found) notify({NoticeKind::camera, display_name(path), {found}});
     for (const auto &[parameter, reason] : camera.unsure)
-        tell({NoticeKind::camera_unsure, display_name(path), {reason}, parameter});
+        notify({NoticeKind::camera_unsure, display_name(path), {reason}, parameter});
 }
 
-void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings) {
+void notify_warnings(const Notify &notify, const std::vector<std::string> &warnings) {
     for (const std::string &warning : warnings)
-        tell({.kind = NoticeKind::picture_warning, .values = {warning}});
+        notify({.kind = NoticeKind::picture_warning, .values = {warning}});
 }
 
-void tell_other_lens(const Tell &tell, const Imf::Header &gathered, const Imf::Header &render,
-                     const std::string &path) {
+void notify_other_lens(const Notify &notify, const Imf::Header &gathered, const Imf::Header &render,
+                       const std::string &path) {
     Camera lens = read_camera(gathered);
     if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes the blades it draws
     if (const auto other = lens_differences(lens, read_camera(render)); !other.empty())
-        tell({NoticeKind::file_warning,
-              display_name(path),
-              {fmt::format("another lens or camera than that of the gathered picture: {}",
-                           fmt::join(other, "; "))}});
+        notify({NoticeKind::file_warning,
+                display_name(path),
+                {fmt::format("another lens or camera than that of the gathered picture: {}",
+                             fmt::join(other, "; "))}});
 }
 
-void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
-                       int across, const LensLooks &looks) {
+void notify_border_reach(const Notify &notify, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                         int across, const LensLooks &looks) {
     const BorderReach reach = border_reach(ldi, lens, looks);
     if (reach.needed == 0) return;
     const bool can_be_rendered = reach.needed <= ldi.windows.display_width(); // else depths or lens are wrong
     const bool missing = reach.too_little() && reach.bright && can_be_rendered;
-    tell({missing ? NoticeKind::missing_overscan : NoticeKind::overscan,
-          display_name(path),
-          {double(pieces_of(reach.needed, across)), double(reach.rendered / across)}});
+    notify({missing ? NoticeKind::missing_overscan : NoticeKind::overscan,
+            display_name(path),
+            {double(pieces_of(reach.needed, across)), double(reach.rendered / across)}});
 }
 
-void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped) {
-    if (clamped > 0) tell({NoticeKind::clamped, display_name(path), {clamped}});
+void notify_clamped(const Notify &notify, const std::string &path, std::size_t clamped) {
+    if (clamped > 0) notify({NoticeKind::clamped, display_name(path), {clamped}});
 }
 
-void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad) {
-    if (bad.any()) tell({NoticeKind::file_warning, display_name(path), {bad.text()}});
+void notify_invalid_values(const Notify &notify, const std::string &path, const InvalidValues &bad) {
+    if (bad.any()) notify({NoticeKind::file_warning, display_name(path), {bad.text()}});
 }
 
 } // namespace sparselens

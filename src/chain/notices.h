@@ -75,7 +75,7 @@ struct Notice {
 };
 
 // Called with each notice as soon as it is known, by one thread at a time.
-using Tell = std::function<void(const Notice &)>;
+using Notify = std::function<void(const Notice &)>;
 
 enum class NoticeLevel {
     note, // shown on request
@@ -87,35 +87,35 @@ NoticeLevel level_of(const Notice &notice);
 std::string words_of(const Notice &notice);
 
 // The notes and warnings of a file's reader.
-void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
-                  const std::vector<std::string> &warnings);
+void notify_reading(const Notify &notify, const std::string &path, const std::vector<std::string> &notes,
+                    const std::vector<std::string> &warnings);
 
 // What happens to each layer, in the order of their first channels, as in the table of docs/file-format.md.
 std::vector<std::string> layer_notes(std::span<const Channel> channels);
-void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels);
+void notify_layers(const Notify &notify, const std::string &path, std::span<const Channel> channels);
 
 // The notes and warnings of an LDI, whether it has per-channel alpha, and its invalid values.
-void tell_samples(const Tell &tell, const OpenedLdi &in);
+void notify_samples(const Notify &notify, const OpenedLdi &in);
 
 // What the file states about its camera, and in which attributes.
-void tell_camera(const Tell &tell, const std::string &path, const Camera &camera);
+void notify_camera(const Notify &notify, const std::string &path, const Camera &camera);
 
 // The findings of checks in pictures (deep/checks/view_warnings.h).
-void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings);
+void notify_warnings(const Notify &notify, const std::vector<std::string> &warnings);
 
 // Warns if the headers name another lens or camera for a render than for the gathered picture (finish/lens_check.h).
-void tell_other_lens(const Tell &tell, const Imf::Header &gathered, const Imf::Header &render,
-                     const std::string &path);
+void notify_other_lens(const Notify &notify, const Imf::Header &gathered, const Imf::Header &render,
+                       const std::string &path);
 
 // How much overscan the blur needs, in pixels of `across` sub-pixels. It warns if there is too little and a light at
 // the border would have its disc cut.
-void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
-                       int across, const LensLooks &looks);
+void notify_border_reach(const Notify &notify, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                         int across, const LensLooks &looks);
 
 // All send a notice only if there is something to report. `speckles`: how many were settled (view/flat_pixels.h).
 // `clamped` is the result of write_flat_exr or write_ldi.
-void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped);
-void tell_speckles(const Tell &tell, const std::string &path, std::size_t speckles);
-void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad);
+void notify_clamped(const Notify &notify, const std::string &path, std::size_t clamped);
+void notify_speckles(const Notify &notify, const std::string &path, std::size_t speckles);
+void notify_invalid_values(const Notify &notify, const std::string &path, const InvalidValues &bad);
 
 } // namespace sparselens

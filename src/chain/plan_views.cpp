@@ -32,7 +32,7 @@ double noise_of_all(const OpenedView &centre, ThinLens lens, const PlanOptions &
 
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, std::optional<int> rays, Progress &progress,
-                        const Tell &tell) {
+                        const Notify &notify) {
     PlannedViews planned;
     planned.camera = camera_with_options(lens, centre.camera);
     if (supersample) planned.camera.supersample = supersample;
@@ -40,8 +40,8 @@ PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const Len
     const Windows &windows = centre.view.image.windows;
     planned.setting = {centre.view.name, windows, resolve_lens(planned.camera, windows), options.margin,
                        options.across};
-    tell_warnings(tell, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, planned.camera,
-                                                       centre.unpremultiplied}));
+    notify_warnings(notify, picture_warnings(centre.view, {centre.depth, centre.depth_filtered,
+                                                           planned.camera, centre.unpremultiplied}));
     planned.plan = make_plan(centre.view, planned.setting.lens, options, progress);
     if (rays)
         planned.setting.division = divide_rays(*rays, int(planned.plan.views.size()) + 1,

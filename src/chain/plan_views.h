@@ -22,7 +22,7 @@ struct PlannedViews {
 // `lens` and `supersample` override the view's values. `rays`: all rays of a pixel, to divide (plan.h).
 PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const LensValues &lens,
                         std::optional<int> supersample, std::optional<int> rays, Progress &progress,
-                        const Tell &tell);
+                        const Notify &notify);
 
 // Tells from the centre views of a shutter's moments how many moments it needs (plan/block_motion.h). `first` and
 // `last` are the first and the last of so many moments, at least 2, with the lens of the plan. The camera's motion

@@ -11,7 +11,7 @@
 namespace sparselens {
 
 std::vector<std::uint8_t> regions_over(const Windows &target, const OpenedLdi &in, const LensValues &values,
-                                       const Tell &tell) {
+                                       const Notify &notify) {
     const auto has_size = [&](const Windows &windows) {
         return windows.display_width() == target.display_width() &&
                windows.display_height() == target.display_height();
@@ -24,17 +24,17 @@ std::vector<std::uint8_t> regions_over(const Windows &target, const OpenedLdi &i
                     ": its display window differs in size from that of the reference; use a file of "
                     "the same picture");
     const ThinLens lens = resolve_lens(camera_with_options(values, in.camera), ldi.windows);
-    tell({.kind = NoticeKind::regions, .values = {lens.radius, lens.focal_px, lens.focus}});
+    notify({.kind = NoticeKind::regions, .values = {lens.radius, lens.focal_px, lens.focus}});
     const std::vector<float> c = front_circles_of_confusion(ldi, lens);
     return bits_over(region_bits(c, ldi.windows.width(), ldi.windows.height(), lens.pixel_aspect),
                      ldi.windows, target);
 }
 
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
-                                       const OpenOptions &options, const Tell &tell) {
+                                       const OpenOptions &options, const Notify &notify) {
     const OpenedLdi in = open_ldi(file, options);
-    tell_samples(tell, in);
-    return regions_over(target, in, options.lens, tell);
+    notify_samples(notify, in);
+    return regions_over(target, in, options.lens, notify);
 }
 
 } // namespace sparselens

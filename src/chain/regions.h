@@ -14,10 +14,10 @@ namespace sparselens {
 // naming it, if its display window has another size and its pixels are not sub-pixels; UsageError if a value of the
 // lens is unknown.
 std::vector<std::uint8_t> regions_over(const Windows &target, const OpenedLdi &in, const LensValues &lens,
-                                       const Tell &tell);
+                                       const Notify &notify);
 
 // The same from a file, either deep or flat with depth.
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
-                                       const OpenOptions &options, const Tell &tell);
+                                       const OpenOptions &options, const Notify &notify);
 
 } // namespace sparselens

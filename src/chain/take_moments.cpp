@@ -69,11 +69,11 @@ private:
 };
 
 // Passes each warning on once, though several moments may give it. Names of moments differ by their numbers.
-Tell once_for_all(const Tell &tell) {
-    return [tell, told = std::make_shared<std::set<std::string>>()](const Notice &notice) {
+Notify once_for_all(const Notify &notify) {
+    return [notify, told = std::make_shared<std::set<std::string>>()](const Notice &notice) {
         std::string kind = words_of(notice);
         std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) != 0; });
-        if (level_of(notice) == NoticeLevel::note || told->insert(kind).second) tell(notice);
+        if (level_of(notice) == NoticeLevel::note || told->insert(kind).second) notify(notice);
     };
 }
 
@@ -87,7 +87,7 @@ class Shutter {
 public:
     Shutter(std::vector<ShutterMoment> moments, const PictureRequest &request, const PictureWork &work)
         : moments_(std::move(moments)), request_(request), progress_(work.progress, moments_.size()),
-          work_(work), tell_(once_for_all(work.tell)), curve_(shutter_curve(request.shutter_curve)) {}
+          work_(work), notify_(once_for_all(work.notify)), curve_(shutter_curve(request.shutter_curve)) {}
 
     // The middle moment goes first, because it decides on the focus.
     TakenPicture picture() {
@@ -121,7 +121,7 @@ private:
         PictureRequest request = request_;
         request.front_depth = false;
         std::vector<std::vector<LampPart>> lamps(moments_.size());
-        const Tell silent = [](const Notice &) {}; // each moment tells when it is taken
+        const Notify silent = [](const Notice &) {}; // each moment tells when it is taken
         const auto find = [&](std::size_t moment) {
             request.picture.gather.lens.lamps = &lamps[moment];
             return moments_[moment].take(request, {progress_.unseen(), silent, nullptr, nullptr, looks()});
@@ -137,7 +137,7 @@ private:
         request_.picture.gather.lens.share =
             share_of_moment(int(moment), int(moments_.size()), request_.rolling_shutter);
         request_.picture.gather.lens.paths = paths_.empty() ? nullptr : &paths_[moment];
-        PictureWork work{progress_.next(), tell_, work_.device, nullptr, looks()};
+        PictureWork work{progress_.next(), notify_, work_.device, nullptr, looks()};
         TakenPicture picture = moments_[moment].take(request_, work);
         require_moment({moments_[moment].name, picture}, moment, moments_.size());
         return picture;
@@ -164,7 +164,7 @@ private:
     PictureRequest request_;
     WholeProgress progress_;
     const PictureWork &work_;
-    Tell tell_;
+    Notify notify_;
     LooksReader looks_;
     ShutterCurve curve_;
     ShutterMean mean_;

@@ -39,9 +39,9 @@ bool is_lens_method(const PictureRequest &request) {
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
 // Takes the picture of `in`. Its samples may be used up if they are `own`.
-class Taking {
+class PictureTask {
 public:
-    Taking(const OpenedLdi &in, Ldi *own, const PictureRequest &request, const PictureWork &work)
+    PictureTask(const OpenedLdi &in, Ldi *own, const PictureRequest &request, const PictureWork &work)
         : in_(in), own_(own), request_(request), work_(work), by_(request.picture) {}
 
     TakenPicture picture(std::optional<GatherWindows> made_before = {}) {
@@ -95,17 +95,17 @@ private:
     }
 
     void aim() {
-        tell_camera(work_.tell, in_.name, in_.camera); // even if the lens is still incomplete
+        notify_camera(work_.notify, in_.name, in_.camera); // even if the lens is still incomplete
         out_.camera =
             picture_camera(request_, in_, [this](const Imath::V2i &at) { return front_depth(in_.ldi, at); });
         if (const auto &pixel = request_.focus_pixel)
-            work_.tell({.kind = NoticeKind::focused,
-                        .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
+            work_.notify({.kind = NoticeKind::focused,
+                          .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
         out_.lens = picture_lens(request_, in_, out_.camera);
         if (const double change = request_.blur.value_or(0) * in_.flicker; change > 0.5) // pixels: it is seen
-            work_.tell({NoticeKind::flicker, in_.name, {change}});
+            work_.notify({NoticeKind::flicker, in_.name, {change}});
         if (sees_past_views(out_.camera, out_.lens))
-            work_.tell({.kind = NoticeKind::wide_lens, .parameter = "fstop"});
+            work_.notify({.kind = NoticeKind::wide_lens, .parameter = "fstop"});
     }
 
     void hold_out() {
@@ -124,13 +124,13 @@ private:
         if (is_lens_method(request_))
             looks = picture_looks(given, out_.camera, out_.header, lens_, ldi().windows);
         else if (shape_aperture(out_.camera.looks))
-            work_.tell({.kind = NoticeKind::round_aperture,
-                        .values = {request_.picture.method->name},
-                        .parameter = "method"});
+            work_.notify({.kind = NoticeKind::round_aperture,
+                          .values = {request_.picture.method->name},
+                          .parameter = "method"});
         const auto *packed = std::get_if<PackedRows>(&in_.held);
         const auto border = packed ? std::optional(border_of(*packed)) : std::nullopt;
-        tell_border_reach(work_.tell, in_.name, border ? *border : ldi(), lens_, frame_.subpixels.across,
-                          looks);
+        notify_border_reach(work_.notify, in_.name, border ? *border : ldi(), lens_, frame_.subpixels.across,
+                            looks);
         choose_windows(frame_, request_.windows, in_, lens_, looks);
         raise_highlights(frame_, in_, highlight_gain(given.values));
     }
@@ -148,7 +148,7 @@ private:
                 out_.image = frame_.picture_of(chosen_channels(gathered(), request_.channels));
         };
         if (work_.device)
-            work_.device->with(request_.device, work_.tell, work_.progress, gather_by);
+            work_.device->with(request_.device, work_.notify, work_.progress, gather_by);
         else
             gather_by(nullptr);
         if (request_.show != Show::picture) out_.image = frame_.picture_of(crop(shown(), frame_.needed));
@@ -198,7 +198,7 @@ ChooseSamples choose_samples(const PictureRequest &request, bool keep, const Pic
                              const Ldi &rows) -> ReduceSamples {
         const LookValues values = work.looks->read(request.looks, camera.fstop).values;
         if (!keeps_pixels(request.windows, header, camera) || highlight_gain(values).gain != 1 ||
-            !is_linear(work.tell, request.colour, request.input, header))
+            !is_linear(work.notify, request.colour, request.input, header))
             return {};
         const ThinLens lens = resolve_lens(camera, rows.windows);
         if (!can_reduce_first(request.picture, lens, values.breathing || camera.looks.breathing,
@@ -276,19 +276,19 @@ Ldi open_holdout(const PictureRequest &request, const OpenedLdi &in) {
 }
 
 TakenPicture take_picture(const OpenedLdi &in, const PictureRequest &request, const PictureWork &work) {
-    if (request.channels.empty()) return Taking(in, nullptr, request, work).picture();
+    if (request.channels.empty()) return PictureTask(in, nullptr, request, work).picture();
     OpenedLdi fewer = in;
     return take_picture(std::move(fewer), request, work);
 }
 
 TakenPicture take_picture(OpenedLdi &&in, const PictureRequest &request, const PictureWork &work) {
     keep_channels(in.ldi, request.channels);
-    return Taking(in, &in.ldi, request, work).picture();
+    return PictureTask(in, &in.ldi, request, work).picture();
 }
 
 TakenPicture take_picture(const OpenedLdi &in, GatherWindows made_before, const PictureRequest &request,
                           const PictureWork &work) {
-    return Taking(in, nullptr, request, work).picture(std::move(made_before));
+    return PictureTask(in, nullptr, request, work).picture(std::move(made_before));
 }
 
 TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &request,
@@ -298,16 +298,16 @@ TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &requ
     if (!with.looks) with.looks = &looks;
     const auto read = [&]() -> OpenedLdi & {
         const Timed reading(work.progress, "read");
-        return cache.load(request, work.tell, choose_samples(request, keep, with));
+        return cache.load(request, work.notify, choose_samples(request, keep, with));
     };
     OpenedLdi &in = read();
     const Timed taking(work.progress, "picture");
-    return Taking(in, keep ? nullptr : &in.ldi, request, with).picture();
+    return PictureTask(in, keep ? nullptr : &in.ldi, request, with).picture();
 }
 
 TakenPicture describe_picture(LdiCache &cache, const PictureRequest &request, const PictureWork &work) {
     if (request.show != Show::picture) return take_picture(cache, true, request, work);
-    return Taking(cache.load(request, work.tell), nullptr, request, work).without_values();
+    return PictureTask(cache.load(request, work.notify), nullptr, request, work).without_values();
 }
 
 LensFile LooksReader::read(const GivenLooks &given, std::optional<double> fstop) {

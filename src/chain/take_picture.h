@@ -76,7 +76,7 @@ void check_method(const PictureRequest &request,
 // The progress, the notices and the devices of the work.
 struct PictureWork {
     Progress &progress;
-    Tell tell;
+    Notify notify;
     GatherDevice *device = nullptr;   // finds the device of the request; null: the CPU works
     const TileWatch *watch = nullptr; // told about tiles, if they are pixels of the picture
     LooksReader *looks = nullptr;     // keeps the files that it reads

@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-UsdViews views_of_shot(const ShotRequest &request, const Tell &tell) {
+UsdViews views_of_shot(const ShotRequest &request, const Notify &notify) {
     const std::optional<double> frame = request.camera.frame;
     const UsdCameras usd = read_usd_cameras(request.camera.file, frame);
     const UsdCamera &camera = camera_called(usd, request.camera.name);
@@ -33,7 +33,7 @@ UsdViews views_of_shot(const ShotRequest &request, const Tell &tell) {
     views.keyed = frame || times.size() > 1;
     for (const double time : times) {
         const FilmCamera film = film_camera(usd, camera, time);
-        if (time == times[0]) tell_warnings(tell, stated_warnings(film, request.lens));
+        if (time == times[0]) notify_warnings(notify, stated_warnings(film, request.lens));
         const Camera at = camera_with_options(request.lens, with_film(film, {}, views.windows));
         const ThinLens lens = resolve_lens(at, views.windows);
         views.metres_per_unit = at.metres_per_unit.value_or(1);

@@ -19,7 +19,7 @@ struct ShotRequest {
 };
 
 // The views of a camera of USD: an even ring on the rim of its lens. Throws UsageError if a value is unknown.
-UsdViews views_of_shot(const ShotRequest &request, const Tell &tell);
+UsdViews views_of_shot(const ShotRequest &request, const Notify &notify);
 
 // Adds the cameras of a plan at a frame, or of a still picture. Views of other lens points than before are added to
 // those of all frames. Throws Error, naming the centre view, if its camera's position is unknown, or if its size or

@@ -223,7 +223,7 @@ std::vector<std::uint8_t> parted_around(const FlatPixels &pixels, int y) {
 
 // A thin strand shows its depth in few of its pixels. The others, if they lie beside nothing, take their depths from
 // one another, two pixels farther at a time. Returns their number.
-std::size_t settle_strands(const FlatPixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
+std::size_t repair_strands(const FlatPixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
     std::size_t count = 0;
     for (int farther = 0; farther < strand_steps && !lost.empty(); ++farther) {
         std::vector<std::size_t> left;
@@ -273,7 +273,7 @@ Row row_at(const FlatPixels &pixels, int y) {
 }
 
 // Replaces all depths at once, so that none is taken from a depth that was replaced before it.
-SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
+RepairedEdges repair(const FlatPixels &pixels, std::span<float> z) {
     std::vector<Row> rows(std::size_t(pixels.grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });
     std::size_t count = 0, parted = 0, mixed = 0;
@@ -288,7 +288,7 @@ SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
         replace(row.partly_covered);
         lost.insert(lost.end(), row.lost.begin(), row.lost.end());
     }
-    count += settle_strands(pixels, std::move(lost), z);
+    count += repair_strands(pixels, std::move(lost), z);
     const double usual =
         least_mixed * double(parted); // at most, and more by chance: three standard deviations
     const bool filtered = double(mixed) > usual + 3 * std::sqrt(usual);
@@ -299,16 +299,17 @@ SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
 
 } // namespace
 
-SettledEdges settle_edge_depths(View &view) { return settle(flat_pixels(view), view.z); }
+RepairedEdges repair_edge_depths(View &view) { return repair(flat_pixels(view), view.z); }
 
-SettledEdges settle_edge_depths(Ldi &ldi) {
+RepairedEdges repair_edge_depths(Ldi &ldi) {
     const auto plane = [&](std::size_t k) { return std::span<const float>(ldi.values[k]); };
-    return settle(flat_pixels(ldi.windows, ldi.channels, ldi.z, plane), ldi.z);
+    return repair(flat_pixels(ldi.windows, ldi.channels, ldi.z, plane), ldi.z);
 }
 
-std::string edge_note(std::size_t settled) {
-    return settled == 1 ? "1 pixel on an edge takes the depth of the surface it shows"
-                        : fmt::format("{} pixels on edges take the depth of the surface they show", settled);
+std::string edge_note(std::size_t repaired) {
+    return repaired == 1
+               ? "1 pixel on an edge takes the depth of the surface it shows"
+               : fmt::format("{} pixels on edges take the depth of the surface they show", repaired);
 }
 
 } // namespace sparselens

@@ -65,17 +65,17 @@ std::optional<VeilMix> unmix_veil(const Imath::V4d &c, const Imath::V4d &f, cons
 //     with many such edges, because then its depth is filtered. In other pictures such edges are chance.
 //
 // Colour and coverage stay, so that what lies behind a partly covered pixel shows.
-struct SettledEdges {
+struct RepairedEdges {
     std::size_t count = 0; // depths that were replaced
     bool filtered = false; // opaque pixels among them: the depth is filtered like a colour
 };
 
 // Depths are planar, > 0 up to inf; colours are premultiplied, and all values valid (see
 // sanitize.h). An Ldi must have one sample in each pixel.
-SettledEdges settle_edge_depths(View &view);
-SettledEdges settle_edge_depths(Ldi &ldi);
+RepairedEdges repair_edge_depths(View &view);
+RepairedEdges repair_edge_depths(Ldi &ldi);
 
 // The note of a reader about replaced depths.
-std::string edge_note(std::size_t settled);
+std::string edge_note(std::size_t repaired);
 
 } // namespace sparselens

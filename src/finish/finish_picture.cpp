@@ -72,7 +72,7 @@ void check_window(const Render &render, const Windows &windows) {
 
 // Leaves only finite values: where a render has none, the gathered value; where the gathered picture has none either,
 // 0.
-void settle(Colours &gathered, std::vector<Halves *> halves) {
+void repair(Colours &gathered, std::vector<Halves *> halves) {
     for (std::size_t c = 0; c < gathered.size(); ++c)
         parallel_ranges(gathered[c].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -126,7 +126,7 @@ void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vect
             !std::ranges::all_of(channels, [&](std::size_t c) { return near.rays.has(c); }))
             continue;
         other.rays = taken(near.rays, channels);
-        settle(other.gathered, {&other.rays});
+        repair(other.gathered, {&other.rays});
         around.push_back(std::move(other));
     }
     if (around.empty()) return;
@@ -156,7 +156,7 @@ LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> 
             layer.given.push_back({same, same});
     std::vector<Halves *> all{&layer.rays};
     for (Halves &given : layer.given) all.push_back(&given);
-    settle(layer.gathered, all);
+    repair(layer.gathered, all);
     take_around(layer, picture, channels);
     return layer;
 }

@@ -56,11 +56,11 @@ OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
     const PictureChoice &choice = options.depth.picture;
-    if (!is_photograph(path, choice)) return ready_ldi(read_ldi(path, choice), path, options);
+    if (!is_photograph(path, choice)) return prepare_ldi(read_ldi(path, choice), path, options);
     OpenOptions of_photograph = options;
     if (has_shown_ending(choice.depth_file) && options.depth.meaning == DepthMeaning::planar)
         of_photograph.depth.meaning = DepthMeaning::disparity; // such a file has no depths in scene units
-    return ready_ldi(read_photograph(path, choice), path, of_photograph);
+    return prepare_ldi(read_photograph(path, choice), path, of_photograph);
 }
 
 namespace {
@@ -150,15 +150,15 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Ch
     LdiFile file = read_ldi(path, options.depth.picture, std::ref(reader));
     if (reader.needs_all()) return open_ldi(path, options);
     if (std::optional<OpenedLdi> opened = reader.opened(std::move(file), path)) return std::move(*opened);
-    return ready_ldi(std::move(file), path, options);
+    return prepare_ldi(std::move(file), path, options);
 }
 
 namespace {
 
 // Settles an LDI with one sample in each pixel.
-std::size_t settle_speckles_of(Ldi &ldi) {
+std::size_t repair_speckles_of(Ldi &ldi) {
     const std::vector<std::span<const float>> planes(ldi.values.begin(), ldi.values.end());
-    return settle_speckles(ldi.windows, ldi.channels, planes, ldi.z);
+    return repair_speckles(ldi.windows, ldi.channels, planes, ldi.z);
 }
 
 // The same, but called before samples that cover nothing are removed.
@@ -170,7 +170,7 @@ bool seems_unpremultiplied(const Ldi &ldi, const PictureChoice &choice) {
 
 } // namespace
 
-OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
+OpenedLdi prepare_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     const bool deep = file.deep;
     OpenedLdi opened = with_camera(std::move(file), path, options);
     const auto warning = deep ? normalized_warning(options.depth, opened.ldi.z)
@@ -178,14 +178,14 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
     if (warning) opened.warnings.push_back(*warning);
     if (!deep) opened.unpremultiplied = seems_unpremultiplied(opened.ldi, options.depth.picture);
     if (options.depth.meaning == DepthMeaning::disparity)
-        settle_disparities(opened.ldi.z, opened.name, opened.warnings);
+        repair_disparities(opened.ldi.z, opened.name, opened.warnings);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {
-        opened.speckles = settle_speckles_of(opened.ldi);
-        const SettledEdges settled = settle_edge_depths(opened.ldi);
-        opened.depth_filtered = settled.filtered;
-        if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));
+        opened.speckles = repair_speckles_of(opened.ldi);
+        const RepairedEdges repaired = repair_edge_depths(opened.ldi);
+        opened.depth_filtered = repaired.filtered;
+        if (repaired.count > 0) opened.notes.push_back(edge_note(repaired.count));
     }
     opened.deep = deep;
     opened.depth = options.depth.meaning;

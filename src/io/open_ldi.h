@@ -56,6 +56,6 @@ using ChooseSamples =
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose);
 
 // The same for a deep picture that is already in memory; `path` is for messages.
-OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});
+OpenedLdi prepare_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});
 
 } // namespace sparselens

@@ -34,11 +34,11 @@ Camera with_frustum_of(const Camera &other, Camera camera) {
 } // namespace
 
 OpenedView open_view(const std::string &path, const OpenOptions &options, const Camera &otherwise) {
-    return ready_view(read_flat_exr(path, options.depth.picture), path, options, otherwise);
+    return prepare_view(read_flat_exr(path, options.depth.picture), path, options, otherwise);
 }
 
-OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options,
-                      const Camera &otherwise) {
+OpenedView prepare_view(FlatFile file, const std::string &path, const OpenOptions &options,
+                        const Camera &otherwise) {
     OpenedView opened;
     opened.header = std::move(file.header);
     opened.notes = std::move(file.notes);
@@ -64,11 +64,11 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
     opened.unpremultiplied =
         !options.depth.picture.unpremultiplied && looks_unpremultiplied(fall_at_edges(flat_pixels(view)));
     opened.bad = sanitize(view);
-    opened.speckles = settle_speckles(view);
-    const SettledEdges settled = settle_edge_depths(view);
+    opened.speckles = repair_speckles(view);
+    const RepairedEdges repaired = repair_edge_depths(view);
     opened.depth = options.depth.meaning;
-    opened.depth_filtered = settled.filtered;
-    if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));
+    opened.depth_filtered = repaired.filtered;
+    if (repaired.count > 0) opened.notes.push_back(edge_note(repaired.count));
     return opened;
 }
 

@@ -67,7 +67,7 @@ struct OpenedFile {
     DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
     std::vector<std::string> notes, warnings;  // see FlatFile, LdiFile
     // For flat pictures alone:
-    bool depth_filtered = false;  // see SettledEdges
+    bool depth_filtered = false;  // see RepairedEdges
     std::size_t speckles = 0;     // depths of speckles replaced (view/flat_pixels.h)
     bool unpremultiplied = false; // whether its colours seem to be so
     double flicker =
@@ -87,7 +87,7 @@ struct OpenedView : OpenedFile {
 OpenedView open_view(const std::string &path, const OpenOptions &options = {}, const Camera &otherwise = {});
 
 // The same for a picture that is already in memory; `path` is for messages.
-OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options = {},
-                      const Camera &otherwise = {});
+OpenedView prepare_view(FlatFile file, const std::string &path, const OpenOptions &options = {},
+                        const Camera &otherwise = {});
 
 } // namespace sparselens

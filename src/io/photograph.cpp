@@ -85,7 +85,7 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
             std::move(picture.warnings)};
 }
 
-void settle_disparities(std::span<float> depths, const std::string &name,
+void repair_disparities(std::span<float> depths, const std::string &name,
                         std::vector<std::string> &warnings) {
     float least = std::numeric_limits<float>::infinity(), most = -least;
     for (const float d : depths)

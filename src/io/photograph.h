@@ -20,7 +20,7 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
 
 // Scales disparities of the picture to 0 to 1 unless they lie there, and says so in `warnings`; so it does if white
 // seems to be far. Throws Error, naming the picture, if all are the same.
-void settle_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings);
+void repair_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings);
 
 // In place of the unknown one; only tilts and the like depend on it.
 Camera photograph_camera();

@@ -57,13 +57,14 @@ void check_count(const char *name, std::size_t count, std::size_t rays) {
 
 // `add` is TwoHalves::add or add_noisy.
 TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector<double> &samples,
-                   const PictureObject &gathered, const Tell &tell, void (TwoHalves::*add)(const Render &)) {
+                   const PictureObject &gathered, const Notify &notify,
+                   void (TwoHalves::*add)(const Render &)) {
     TwoHalves halves(gathered.image);
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         Image image = pictures[k]->image;
         const NamedHeader render{pictures[k]->header, fmt::format("{}[{}]", name, k)};
-        to_space_of(tell, {}, {gathered.header, "gathered"}, render, image);
-        tell_other_lens(tell, gathered.header, render.header, render.name);
+        to_space_of(notify, {}, {gathered.header, "gathered"}, render, image);
+        notify_other_lens(notify, gathered.header, render.header, render.name);
         (halves.*add)({render.name, std::move(image), samples[k]});
     }
     return halves;
@@ -111,14 +112,15 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
     const auto around = frames_of(keywords.take("around"), renders.size());
     const py::object progress = keywords.take("progress");
     keywords.done();
-    FinishedPicture made = told_job<FinishedPicture>(progress, [&](Progress &said, const Tell &tell) {
+    FinishedPicture made = job_with_notices<FinishedPicture>(progress, [&](Progress &said,
+                                                                           const Notify &notify) {
         PictureToFinish picture{in.image,
-                                added_up("rays", renders, samples, in, tell, &TwoHalves::add_noisy)};
+                                added_up("rays", renders, samples, in, notify, &TwoHalves::add_noisy)};
         if (!denoised.empty())
-            picture.denoised.push_back(added_up("denoised", denoised, samples, in, tell, &TwoHalves::add));
+            picture.denoised.push_back(added_up("denoised", denoised, samples, in, notify, &TwoHalves::add));
         for (const auto &[other, of_other] : around)
             picture.around.push_back(
-                {other->image, added_up("around", of_other, samples, in, tell, &TwoHalves::add_noisy)});
+                {other->image, added_up("around", of_other, samples, in, notify, &TwoHalves::add_noisy)});
         return finish_picture(std::move(picture), said);
     });
     for (const std::string &text : made.warnings) warn(text);

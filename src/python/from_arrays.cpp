@@ -171,7 +171,7 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     }
     keywords.done();
     ViewObject view{
-        job<OpenedView>(py::none(), [&](Progress &) { return ready_view(std::move(file), name, options); }),
+        job<OpenedView>(py::none(), [&](Progress &) { return prepare_view(std::move(file), name, options); }),
         position};
     warn_of(name, view.in.warnings, view.in.speckles, view.in.bad);
     return view;
@@ -195,7 +195,7 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
         premultiply(file.ldi.channels,
                     std::vector<std::span<float>>(file.ldi.values.begin(), file.ldi.values.end()));
     auto ldi =
-        job<OpenedLdi>(py::none(), [&](Progress &) { return ready_ldi(std::move(file), name, options); });
+        job<OpenedLdi>(py::none(), [&](Progress &) { return prepare_ldi(std::move(file), name, options); });
     warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
     return ldi;
 }

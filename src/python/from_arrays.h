@@ -1,5 +1,5 @@
 // Makes views, LDIs and pictures from numpy arrays, for the constructors of the Python classes. Views and LDIs are
-// prepared like files (ready_view, ready_ldi): depth is planar, invalid values are repaired, samples are tidy. The
+// prepared like files (prepare_view, prepare_ldi): depth is planar, invalid values are repaired, samples are tidy. The
 // errors are those of arrays.h and keywords.h.
 #pragma once
 

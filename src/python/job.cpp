@@ -69,7 +69,7 @@ class Teller {
 public:
     explicit Teller(py::object callback) : callback_(std::move(callback)) {}
 
-    void tell(const News &news) {
+    void notify(const News &news) {
         if (callback_.is_none()) return;
         if (news.stage == last_.stage && news.percent <= last_.percent && news.percent > 0) return;
         last_ = news;
@@ -110,7 +110,7 @@ void run_job(const py::object &callback, const std::function<void(Progress &)> &
                 const py::gil_scoped_release unlocked;
                 done = desk.wait(news);
             }
-            for (const News &item : news) teller.tell(item);
+            for (const News &item : news) teller.notify(item);
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         }
     } catch (...) {

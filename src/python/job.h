@@ -37,7 +37,8 @@ Result job(const py::object &callback, const std::function<Result(Progress &)> &
 
 // Runs work(progress, tell) as a job().
 template <typename Result>
-Result told_job(const py::object &callback, const std::function<Result(Progress &, const Tell &)> &work) {
+Result job_with_notices(const py::object &callback,
+                        const std::function<Result(Progress &, const Notify &)> &work) {
     std::vector<std::string> warnings;
     Result result = job<Result>(callback, [&](Progress &progress) {
         return work(progress, [&](const Notice &notice) {

@@ -147,9 +147,9 @@ PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const GatherArguments arguments = arguments_from(given);
     const std::vector<const OpenedLdi *> in =
         several<OpenedLdi>(ldi, "ldi", "an Ldi, or a sequence of the moments of a shutter");
-    return told_job<PictureObject>(
-        arguments.progress, [&](Progress &progress, const Tell &tell) -> PictureObject {
-            TakenPicture made = take_moments(in, arguments, {progress, tell, &gather_device()});
+    return job_with_notices<PictureObject>(
+        arguments.progress, [&](Progress &progress, const Notify &notify) -> PictureObject {
+            TakenPicture made = take_moments(in, arguments, {progress, notify, &gather_device()});
             return {std::move(made.image), std::move(made.header)};
         });
 }

@@ -325,7 +325,7 @@ void warn(const std::string &text) {
 void warn_of(const std::string &name, const std::vector<std::string> &warnings, std::size_t speckles,
              const InvalidValues &bad) {
     for (const std::string &warning : warnings) warn(name + ": " + warning);
-    tell_speckles([](const Notice &notice) { warn(words_of(notice)); }, name, speckles);
+    notify_speckles([](const Notice &notice) { warn(words_of(notice)); }, name, speckles);
     if (bad.any()) warn(name + ": " + bad.text());
 }
 

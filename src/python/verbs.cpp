@@ -133,8 +133,8 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     if (const std::string device = keywords.text("device"); !device.empty()) request.device = device;
     const py::object progress = keywords.take("progress");
     keywords.done();
-    return told_job<LdiObject>(progress, [&](Progress &said, const Tell &tell) -> LdiObject {
-        MadeLdi made = make_ldi(from, request, {said, tell, &warp_device()});
+    return job_with_notices<LdiObject>(progress, [&](Progress &said, const Notify &notify) -> LdiObject {
+        MadeLdi made = make_ldi(from, request, {said, notify, &warp_device()});
         return ldi_of(request.name, std::move(made));
     });
 }
@@ -151,11 +151,11 @@ LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     keywords.done();
     const PictureObject *flat =
         colours.is_none() ? nullptr : &argument<PictureObject>(colours, "recolor", "a Picture");
-    return told_job<LdiObject>(progress, [&](Progress &said, const Tell &tell) -> LdiObject {
+    return job_with_notices<LdiObject>(progress, [&](Progress &said, const Notify &notify) -> LdiObject {
         FlatFile beauty;
         if (flat) beauty = {.image = flat->image, .header = flat->header};
         if (flat) request.beauty = &beauty;
-        ClusteredLdi made = cluster_ldi(from, request, said, tell);
+        ClusteredLdi made = cluster_ldi(from, request, said, notify);
         return ldi_of(from[0]->name, std::move(made));
     });
 }
@@ -213,8 +213,8 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
-    return told_job<PlanObject>(progress, [&](Progress &said, const Tell &tell) -> PlanObject {
-        PlannedViews made = plan_views(centre, options, lens, across, rays, said, tell);
+    return job_with_notices<PlanObject>(progress, [&](Progress &said, const Notify &notify) -> PlanObject {
+        PlannedViews made = plan_views(centre, options, lens, across, rays, said, notify);
         if (moments.size() > 1)
             made.setting.moments =
                 plan_moments(moments.front()->in, moments.back()->in, moments.size(), made, lens);
@@ -248,11 +248,12 @@ py::dict compare(const py::object &image, const py::object &reference, const py:
     const OpenedLdi *by = regions.is_none() ? nullptr : &argument<LdiObject>(regions, "regions", an_ldi);
     const LensValues lens = lens_values(keywords);
     keywords.done();
-    const auto figures = told_job<std::vector<ErrorFigures>>(py::none(), [&](Progress &, const Tell &tell) {
-        const auto bits = by ? regions_over(b.windows, *by, lens, tell) : std::vector<std::uint8_t>();
-        return image_error(rgba_over(a, b.windows, "image"), rgba_over(b, b.windows, "reference"), bits,
-                           bits.empty() ? 0 : region_names.size());
-    });
+    const auto figures =
+        job_with_notices<std::vector<ErrorFigures>>(py::none(), [&](Progress &, const Notify &notify) {
+            const auto bits = by ? regions_over(b.windows, *by, lens, notify) : std::vector<std::uint8_t>();
+            return image_error(rgba_over(a, b.windows, "image"), rgba_over(b, b.windows, "reference"), bits,
+                               bits.empty() ? 0 : region_names.size());
+        });
     py::dict found = dict_of(figures.front());
     if (!by) return found;
     py::dict each;

@@ -49,10 +49,10 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
     refuse_wrong_name(path, OutputKind::picture);
     if (type && is_shown_picture(path)) throw UsageError("type: applies to EXR, not to " + path);
     set_type(picture.image.channels, type);
-    told_job<bool>(py::none(), [&](Progress &, const Tell &tell) {
-        tell_clamped(tell, path,
-                     sparselens::write_picture(tell, colour, path, std::move(picture.image), picture.header,
-                                               compression, tiles));
+    job_with_notices<bool>(py::none(), [&](Progress &, const Notify &notify) {
+        notify_clamped(notify, path,
+                       sparselens::write_picture(notify, colour, path, std::move(picture.image),
+                                                 picture.header, compression, tiles));
         return true;
     });
 }

@@ -101,7 +101,7 @@ bool has_speckles(const FlatPixels &picture) {
 }
 
 // Replaces all depths of one round at once, so that none is taken from a depth that was replaced before it.
-std::size_t settle_once(const FlatPixels &picture, std::span<float> z) {
+std::size_t repair_once(const FlatPixels &picture, std::span<float> z) {
     std::vector<std::vector<std::pair<std::size_t, float>>> rows(std::size_t(picture.grid.height()));
     parallel_for(rows.size(), [&](std::size_t row) {
         for_each_far(picture, int(row), most_around, [&](int x, int y, const Nearer &nearer) {
@@ -120,26 +120,26 @@ std::size_t settle_once(const FlatPixels &picture, std::span<float> z) {
 
 } // namespace
 
-std::size_t settle_speckles(const Windows &windows, std::span<const Channel> channels,
+std::size_t repair_speckles(const Windows &windows, std::span<const Channel> channels,
                             std::span<const std::span<const float>> planes, std::span<float> z) {
     const FlatPixels picture = flat_pixels(windows, channels, z, [&](std::size_t k) { return planes[k]; });
     if (!has_speckles(picture)) return 0;
     std::size_t count = 0;
-    while (const std::size_t more = settle_once(picture, z)) count += more;
+    while (const std::size_t more = repair_once(picture, z)) count += more;
     return count;
 }
 
-std::size_t settle_speckles(View &view) {
+std::size_t repair_speckles(View &view) {
     std::vector<std::span<const float>> planes;
     for (std::size_t k = 0; k < view.image.channels.size(); ++k) planes.push_back(view.image.plane(k));
-    return settle_speckles(view.image.windows, view.image.channels, planes, view.z);
+    return repair_speckles(view.image.windows, view.image.channels, planes, view.z);
 }
 
-std::string speckle_warning(std::size_t settled) {
+std::string speckle_warning(std::size_t repaired) {
     return fmt::format("{} pixels have the depth of the sky amid a surface of their colour, as where rays "
                        "scatter in fog: they take "
                        "the depth of the pixels around them",
-                       settled);
+                       repaired);
 }
 
 } // namespace sparselens

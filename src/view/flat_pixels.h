@@ -76,11 +76,11 @@ inline constexpr float far_beyond = 16;
 
 // Replaces the depths of speckles and returns how many. Depths must be above 0 up to inf, colours premultiplied, and
 // all values valid (deep/sanitize.h). `planes`: the channels, one value per pixel.
-std::size_t settle_speckles(const Windows &windows, std::span<const Channel> channels,
+std::size_t repair_speckles(const Windows &windows, std::span<const Channel> channels,
                             std::span<const std::span<const float>> planes, std::span<float> z);
-std::size_t settle_speckles(View &view);
+std::size_t repair_speckles(View &view);
 
 // The warning about replaced depths.
-std::string speckle_warning(std::size_t settled);
+std::string speckle_warning(std::size_t repaired);
 
 } // namespace sparselens

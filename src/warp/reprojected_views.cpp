@@ -83,7 +83,7 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
 }
 
 // Settles the lamps of flat views. Deep views need none of this, because their parts mix nothing.
-std::vector<CrossedLamps> settle_lamps(std::vector<ViewSamples> &views,
+std::vector<CrossedLamps> repair_lamps(std::vector<ViewSamples> &views,
                                        const std::vector<ViewMapping> &mappings, double tolerance) {
     std::vector<std::size_t> flat;
     std::vector<ViewSamples> samples;
@@ -95,7 +95,7 @@ std::vector<CrossedLamps> settle_lamps(std::vector<ViewSamples> &views,
             mappings_of_flat.push_back(mappings[v]);
         }
     std::vector<CrossedLamps> found, crossed(views.size());
-    if (flat.size() > 1) found = settle_lamp_depths(samples, mappings_of_flat, tolerance);
+    if (flat.size() > 1) found = repair_lamp_depths(samples, mappings_of_flat, tolerance);
     for (std::size_t n = 0; n < flat.size(); ++n) {
         views[flat[n]] = std::move(samples[n]);
         if (!found.empty()) crossed[flat[n]] = std::move(found[n]);
@@ -132,7 +132,7 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
     }
     const bool separate = jump > 0 && scale > 0;
     std::vector<CrossedLamps> crossed(samples.size());
-    if (separate) crossed = settle_lamps(samples, mappings, inverse_depth_step(scale, jump));
+    if (separate) crossed = repair_lamps(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(samples.size());
     // One after the other, each by all threads, which takes less memory.
     for (std::size_t v = 0; v < samples.size(); ++v) {

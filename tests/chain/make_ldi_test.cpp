@@ -20,7 +20,7 @@ const LensValues lens{
 
 struct Told {
     std::vector<std::string> words;
-    Tell tell() {
+    Notify notify() {
         return [this](const Notice &notice) { words.push_back(words_of(notice)); };
     }
     bool has(const std::string &text) const { return std::ranges::find(words, text) != words.end(); }
@@ -43,7 +43,7 @@ TEST(MakeLdi, CountsWhatViewsGive) {
     LdiFromViews request{.name = "made", .supersample = 2, .lens = lens};
     Told told;
     Progress silent;
-    const MadeLdi made = make_ldi(views, request, {silent, told.tell()});
+    const MadeLdi made = make_ldi(views, request, {silent, told.notify()});
     EXPECT_EQ(made.views, 2u);
     EXPECT_EQ(made.empty_views, 1u);
     EXPECT_EQ(made.pixels_given, 20u * 30);
@@ -83,7 +83,7 @@ TEST(ClusterLdi, MergesByTheLensOrWithoutIt) {
     const OpenedLdi *both[] = {&back, &front};
     const auto samples = [&](const ClusterRequest &request, Told &told) {
         Progress silent;
-        return cluster_ldi(both, request, silent, told.tell()).ldi.samples();
+        return cluster_ldi(both, request, silent, told.notify()).ldi.samples();
     };
     Told told, blind;
     EXPECT_EQ(samples({.lens = lens, .tolerance = 9.5}, told), 2400u);
@@ -104,8 +104,8 @@ TEST(ClusterLdi, TakesTheLensThatIsGivenForThatOfAll) {
     const OpenedLdi *both[] = {&front, &back};
     Progress silent;
     Told told;
-    EXPECT_THROW(cluster_ldi(both, {.tolerance = 0}, silent, told.tell()), Error);
-    const ClusteredLdi made = cluster_ldi(both, {.lens = lens, .tolerance = 0}, silent, told.tell());
+    EXPECT_THROW(cluster_ldi(both, {.tolerance = 0}, silent, told.notify()), Error);
+    const ClusteredLdi made = cluster_ldi(both, {.lens = lens, .tolerance = 0}, silent, told.notify());
     EXPECT_EQ(made.ldi.samples(), 2400u);
     EXPECT_EQ(made.camera.focal_length_mm, 640);
     EXPECT_EQ(read_camera(made.header).focal_length_mm, 640);
@@ -116,8 +116,8 @@ TEST(PlanViews, IsForPixelsOfThePicture) {
     centre.camera.supersample = 2;
     Progress silent;
     Told told;
-    EXPECT_EQ(plan_views(centre, {.views = 0}, lens, {}, {}, silent, told.tell()).setting.across, 2);
-    const PlannedViews planned = plan_views(centre, {.views = 0}, lens, 4, 20, silent, told.tell());
+    EXPECT_EQ(plan_views(centre, {.views = 0}, lens, {}, {}, silent, told.notify()).setting.across, 2);
+    const PlannedViews planned = plan_views(centre, {.views = 0}, lens, 4, 20, silent, told.notify());
     EXPECT_EQ(planned.setting.division->views, 1); // none is planned
     EXPECT_EQ(planned.setting.division->per_render, 6);
     EXPECT_EQ(planned.setting.across, 4);
@@ -129,12 +129,12 @@ TEST(PlanViews, IsForPixelsOfThePicture) {
 TEST(RegionsOver, AreOfPixelsOrOfTheirSubpixels) {
     OpenedLdi in = glass(5, 640); // in focus
     Told told;
-    EXPECT_EQ(regions_over(windows, in, lens, told.tell()).size(), 1200u);
+    EXPECT_EQ(regions_over(windows, in, lens, told.notify()).size(), 1200u);
     EXPECT_TRUE(
         told.has("the regions are those of a lens of radius 0.06, focal length 640 pixels, focused at 5"));
-    EXPECT_THROW(regions_over(windows_of_size(20, 15), in, lens, told.tell()), Error);
+    EXPECT_THROW(regions_over(windows_of_size(20, 15), in, lens, told.notify()), Error);
     in.camera.supersample = 2;
-    EXPECT_EQ(regions_over(windows_of_size(20, 15), in, lens, told.tell()).size(), 300u);
+    EXPECT_EQ(regions_over(windows_of_size(20, 15), in, lens, told.notify()).size(), 300u);
 }
 
 TEST(Words, SayTheParameterAndWhetherItMatters) {

@@ -251,7 +251,7 @@ TEST(TakeMoments, ALampInFocusThatMovesIsAnEvenLine) {
 TEST(TakeMoments, OneIsTheStill) {
     const OpenedLdi in = opened(random_surfaces(windows_of_size(64, 48), lens, false, 3));
     Progress silent;
-    const Tell nobody = [](const Notice &) {};
+    const Notify nobody = [](const Notice &) {};
     EXPECT_EQ(taken({in}).image.values, take_picture(in, {}, {silent, nobody}).image.values);
     ScratchFolder folder;
     write_ldi(folder.file("ldi_0.exr"), in.ldi, in.header);

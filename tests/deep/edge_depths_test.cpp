@@ -29,30 +29,30 @@ View row_of(const std::vector<ViewPixel> &pixels) {
 }
 
 // The depths of a row of pixels after they are settled.
-std::vector<float> settled(const std::vector<ViewPixel> &pixels) {
+std::vector<float> repaired(const std::vector<ViewPixel> &pixels) {
     View view = row_of(pixels);
-    settle_edge_depths(view);
+    repair_edge_depths(view);
     return view.z;
 }
 
 using Depths = std::vector<float>;
 
 TEST(EdgeDepths, APartlyCoveredPixelOfTheSkyTakesTheDepthBesideIt) {
-    EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
-    EXPECT_EQ(settled({covered(3, 1), covered(1e9f, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
-    EXPECT_EQ(settled({covered(3, 1), covered(1.2f, 0.4f), covered(inf, 0)}),
+    EXPECT_EQ(repaired({covered(3, 1), covered(inf, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
+    EXPECT_EQ(repaired({covered(3, 1), covered(1e9f, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
+    EXPECT_EQ(repaired({covered(3, 1), covered(1.2f, 0.4f), covered(inf, 0)}),
               (Depths{3, 3, inf})); // mixed with 0
-    EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.9f), covered(inf, 0.1f), covered(inf, 0)}),
-              (Depths{3, 3, 3, inf}));                                          // two pixels away
-    EXPECT_EQ(settled({covered(inf, 0.5f), covered(4, 0.5f)}), (Depths{4, 4})); // a hair: no full pixel
+    EXPECT_EQ(repaired({covered(3, 1), covered(inf, 0.9f), covered(inf, 0.1f), covered(inf, 0)}),
+              (Depths{3, 3, 3, inf}));                                           // two pixels away
+    EXPECT_EQ(repaired({covered(inf, 0.5f), covered(4, 0.5f)}), (Depths{4, 4})); // a hair: no full pixel
 }
 
 TEST(EdgeDepths, TheColourSaysWhichSurfaceItIs) {
-    EXPECT_EQ(settled({covered(3, 1, 1, 0), covered(inf, 0.4f, 1, 0.1f), covered(8, 1, 0, 1)}),
+    EXPECT_EQ(repaired({covered(3, 1, 1, 0), covered(inf, 0.4f, 1, 0.1f), covered(8, 1, 0, 1)}),
               (Depths{3, 3, 8}));
-    EXPECT_EQ(settled({covered(3, 1, 1, 0), covered(inf, 0.4f, 0.1f, 1), covered(8, 1, 0, 1)}),
+    EXPECT_EQ(repaired({covered(3, 1, 1, 0), covered(inf, 0.4f, 0.1f, 1), covered(8, 1, 0, 1)}),
               (Depths{3, 8, 8}));
-    EXPECT_EQ(settled({covered(3, 0.5f), covered(inf, 0.4f), covered(8, 1)}),
+    EXPECT_EQ(repaired({covered(3, 0.5f), covered(inf, 0.4f), covered(8, 1)}),
               (Depths{3, 8, 8})); // else coverage
 }
 
@@ -65,7 +65,7 @@ TEST(EdgeDepths, OtherDepthsStay) {
              {covered(inf, 0.5f), covered(inf, 0.4f), covered(inf, 0.5f)}, // smoke in the sky
              {covered(3, 1), covered(inf, 0), covered(inf, 0), covered(inf, 0.5f)}}) { // and beside something
         const View view = row_of(pixels);
-        EXPECT_EQ(settled(pixels), view.z);
+        EXPECT_EQ(repaired(pixels), view.z);
     }
 }
 
@@ -76,9 +76,9 @@ TEST(EdgeDepths, AStrandOverNothingGoesOn) {
         View view = make_view(windows_of_size(14, 2), {0, 0}, [&](int x, int y) {
             return y == 1 && nothing ? covered(inf, 0) : covered(x == 0 ? 3 : inf, 0.4f);
         });
-        settle_edge_depths(view);
-        const int settled = nothing ? 10 : 2; // 2 pixels, and 8 more
-        for (int x = 0; x < 14; ++x) EXPECT_EQ(view.z[std::size_t(x)], x <= settled ? 3 : inf) << x;
+        repair_edge_depths(view);
+        const int repaired = nothing ? 10 : 2; // 2 pixels, and 8 more
+        for (int x = 0; x < 14; ++x) EXPECT_EQ(view.z[std::size_t(x)], x <= repaired ? 3 : inf) << x;
     }
 }
 
@@ -92,7 +92,7 @@ TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
         if (y < 6) return mixed(3, 8, x < 5 ? 1.0f : x == 5 ? 0.6f : 0.0f);
         return mixed(3, 3.4f, x < 4 ? 1.0f : x > 6 ? 0.0f : x == 4 ? 0.75f : x == 5 ? 0.55f : 0.25f);
     });
-    settle_edge_depths(view);
+    repair_edge_depths(view);
     EXPECT_EQ(view.z[view.image.windows.index(5, 2)], 3);
     EXPECT_EQ(view.z[view.image.windows.index(5, 9)], 3);
 }
@@ -100,7 +100,7 @@ TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
 TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
     View view = row_of({covered(3, 1), covered(inf, 0.4f), covered(8, 0.9f)});
     Ldi ldi = ViewSamples(view, view.image.channels).as_ldi();
-    EXPECT_EQ(settle_edge_depths(ldi).count, 1u);
+    EXPECT_EQ(repair_edge_depths(ldi).count, 1u);
     EXPECT_EQ(ldi.z, (Depths{3, 3, 8}));
     EXPECT_EQ(ldi.values[3], (std::vector<float>{1, 0.4f, 0.9f}));
 }
@@ -123,9 +123,9 @@ TEST(EdgeDepths, FilteredDepthBecomesThatOfTheSurfaceShownMost) {
         View view = disc_before_wall([&](float share, int, int) {
             return share == 0 && wall == 1e10f ? inf : share * 2 + (1 - share) * wall;
         });
-        const SettledEdges settled = settle_edge_depths(view);
-        EXPECT_GT(settled.count, 20u);
-        EXPECT_TRUE(settled.filtered);
+        const RepairedEdges repaired = repair_edge_depths(view);
+        EXPECT_GT(repaired.count, 20u);
+        EXPECT_TRUE(repaired.filtered);
         for (std::size_t i = 0; i < view.z.size(); ++i) {
             const float share = view.image.plane(0)[i];
             if (share < 0.1f || share > 0.9f || (share > 0.4f && share < 0.6f)) continue;
@@ -141,9 +141,9 @@ TEST(EdgeDepths, DepthThatIsNotFilteredStays) {
         return unit_interval(mix_bits(std::uint32_t(x), std::uint32_t(y))) < double(share) ? 2.0f : 10.0f;
     });
     const std::vector<float> before = view.z;
-    const SettledEdges settled = settle_edge_depths(view);
-    EXPECT_EQ(settled.count, 0u);
-    EXPECT_FALSE(settled.filtered);
+    const RepairedEdges repaired = repair_edge_depths(view);
+    EXPECT_EQ(repaired.count, 0u);
+    EXPECT_FALSE(repaired.filtered);
     EXPECT_EQ(view.z, before);
 }
 
@@ -151,9 +151,9 @@ TEST(EdgeDepths, ASteepSlopeStays) {
     View view = make_view(windows_of_size(16, 12), {0, 0}, [](int x, int y) {
         return ViewPixel{.z = 2 + float(y) / 6, .r = float(x + 8 * y), .g = 50.0f + float(4 * x - 4 * y)};
     });
-    const SettledEdges settled = settle_edge_depths(view);
-    EXPECT_EQ(settled.count, 0u);
-    EXPECT_FALSE(settled.filtered);
+    const RepairedEdges repaired = repair_edge_depths(view);
+    EXPECT_EQ(repaired.count, 0u);
+    EXPECT_FALSE(repaired.filtered);
 }
 
 } // namespace

@@ -36,7 +36,7 @@ TEST(Speckles, TakeTheDepthOfTheWallAroundThem) {
         View view = Wall{speckled}.view();
         std::size_t speckles = 0, left = 0;
         for (const float z : view.z) speckles += z == sky;
-        const std::size_t settled = settle_speckles(view);
+        const std::size_t repaired = repair_speckles(view);
         for (int y = 1; y + 1 < height; ++y) // corners have three neighbours, borders five
             for (int x = 1; x + 1 < width; ++x) {
                 const float z = view.z[std::size_t(y * width + x)];
@@ -46,15 +46,15 @@ TEST(Speckles, TakeTheDepthOfTheWallAroundThem) {
                     ASSERT_NEAR(z, 6 + 0.01f * float(x), 0.021f)
                         << x << " " << y; // of a neighbour, or a pixel two away
             }
-        EXPECT_LE(settled, speckles);
-        EXPECT_GE(settled + 2 * (width + height), speckles);
+        EXPECT_LE(repaired, speckles);
+        EXPECT_GE(repaired + 2 * (width + height), speckles);
         EXPECT_LE(left, speckled < 0.1 ? 0u : speckles / 20) << speckled;
     }
 }
 
 TEST(Speckles, HolesThatShowTheSkyStay) {
     View view = Wall{0.05, 0.01}.view();
-    settle_speckles(view);
+    repair_speckles(view);
     for (int y = 1; y + 1 < height; ++y)
         for (int x = 1; x + 1 < width; ++x)
             if (Wall{0.05, 0.01}.is_hole(x, y)) {
@@ -70,7 +70,7 @@ TEST(Speckles, PicturesWithoutThemStay) {
     });
     for (const View &given : {whole, holes, few, half}) {
         View view = given;
-        EXPECT_EQ(settle_speckles(view), 0u);
+        EXPECT_EQ(repair_speckles(view), 0u);
         EXPECT_EQ(view.z, given.z);
     }
 }
@@ -81,7 +81,7 @@ TEST(Speckles, WhatIsPartlyCoveredStays) {
     ASSERT_NE(alpha, npos);
     for (std::size_t i = 0; i < view.z.size(); ++i)
         if (view.z[i] == sky) view.image.plane(alpha)[i] = 0.5f;
-    EXPECT_EQ(settle_speckles(view), 0u);
+    EXPECT_EQ(repair_speckles(view), 0u);
 }
 
 } // namespace

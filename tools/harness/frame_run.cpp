@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "harness/commands/each_picture.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/commands/frames.h"
-#include "harness/commands/named_files.h"
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "chain/notices.h"
-#include "harness/commands/named_files.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
@@ -46,7 +46,7 @@ void write_plain(const std::string &path, const Image &image) {
 
 void warn(const ToolContext &tool, const std::string &text) { fmt::print(stderr, "{}", warning(tool, text)); }
 
-Tell ToolContext::tell() const {
+Notify ToolContext::notify() const {
     return [this](const Notice &notice) {
         switch (level_of(notice)) {
         case NoticeLevel::note: say(words_of(notice)); break;

@@ -46,7 +46,7 @@ struct ToolContext {
     std::string tool_name;
 
     // Returns a function that prints what the chain reports; notes only with --verbose.
-    Tell tell() const;
+    Notify notify() const;
 };
 
 using Work = std::function<void(const ToolContext &)>;

@@ -1,6 +1,6 @@
 #include "options/plan_options.h"
 
-#include "harness/commands/named_files.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
 #include "options/warp_options.h"

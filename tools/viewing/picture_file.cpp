@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/commands/frames.h"
-#include "harness/commands/named_files.h"
 #include "io/files/text_file.h"
 #include "io/lens_file.h"
 #include "io/moment_files.h"

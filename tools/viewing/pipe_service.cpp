@@ -116,11 +116,11 @@ void PipeService::forget_changed(const Job &job) {
 PipeService::Made PipeService::make(const Job &job, const Make &make) {
     forget_changed(job);
     Made made;
-    const Tell tell = [&](const Notice &notice) {
+    const Notify notify = [&](const Notice &notice) {
         if (level_of(notice) != NoticeLevel::note)
             made.warnings.push_back(InMemoryPictures::in_words(one_line(with_options(words_of(notice)))));
     };
-    made.picture = make({*tool_.progress, tell, &device_});
+    made.picture = make({*tool_.progress, notify, &device_});
     ToolContext gather;
     gather.command_line = command_line("dof-gather", job.words);
     append_history(made.picture.header, gather, job.command.history);
@@ -163,7 +163,7 @@ const PipeService::Made &PipeService::taken(const Job &job) {
 PipeService::Answer PipeService::facts(const Job &job) {
     const Made &made = described(job);
     forget_changed(job);
-    const Tell quiet = [](const Notice &) {};
+    const Notify quiet = [](const Notice &) {};
     SequencePicture shot;
     static_cast<TakenPicture &>(shot) = made.picture;
     shot.warnings = made.warnings;

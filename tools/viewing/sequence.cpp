@@ -47,7 +47,7 @@ FrameCache::Read reader_of(const std::vector<GatherCommand> &frames, const ToolC
     return [frames, &tool](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
         LdiCache cache;
-        return loaded_frame(std::move(cache.load(middle_moment(options), tool.tell())), options.windows,
+        return loaded_frame(std::move(cache.load(middle_moment(options), tool.notify())), options.windows,
                             options.colour);
     };
 }
@@ -89,7 +89,7 @@ SequencePicture Sequence::taken(const GatherCommand &options, const ToolContext 
     const FrameCache::Held of = frame(options);
     SequencePicture out;
     out.depths = of->depths;
-    const Tell tell = [&](const Notice &notice) {
+    const Notify notify = [&](const Notice &notice) {
         if (level_of(notice) == NoticeLevel::note)
             tool.say(words_of(notice));
         else
@@ -99,7 +99,7 @@ SequencePicture Sequence::taken(const GatherCommand &options, const ToolContext 
     request.lens.focus_distance = of->camera(options).focus_distance;
     request.focus_pixel.reset();
     request.channels = shown_channels;
-    const PictureWork work{progress, tell, &device_, watch, &looks_};
+    const PictureWork work{progress, notify, &device_, watch, &looks_};
     if (names_moments(options.input) && options.windows.proxy == 1) {
         LdiCache cache;
         static_cast<TakenPicture &>(out) = take_moments(cache, false, request, work);

@@ -308,7 +308,7 @@ std::optional<std::string> Viewer::save(const PageRequest &wanted) {
             path = std::filesystem::path(options_.save) /
                    fmt::format("{}.{:04}.png", stem_of(command.input), ++saved_);
         while (std::filesystem::exists(path));
-        write_picture(tool_.tell(), command.colour, path.string(), std::move(image),
+        write_picture(tool_.notify(), command.colour, path.string(), std::move(image),
                       sequence_.frame(command)->in.header);
         return Json{{"file", path.string()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
     });

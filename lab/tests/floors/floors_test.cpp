@@ -67,7 +67,7 @@ Image gather(const Ldi &ldi, const SceneCamera &scene,
 
 std::vector<View> views_of(const SceneCamera &scene, int samples = 16) {
     std::vector<View> views = scene.five_views(samples);
-    for (View &view : views) settle_edge_depths(view); // as when they are read
+    for (View &view : views) repair_edge_depths(view); // as when they are read
     return views;
 }
 

@@ -77,7 +77,7 @@ TEST(EdgeDepths, LampsOverNothingKeepTheirWidth) {
     std::vector<View> views;
     for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
         views.push_back(lamps_from(lens.radius * u));
-        settle_edge_depths(views.back());
+        repair_edge_depths(views.back());
     }
     Progress silent;
     const Ldi ldi = warp(views, {.focal_px = lens.focal_px, .radius = lens.radius}, silent);

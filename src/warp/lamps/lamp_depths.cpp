@@ -53,7 +53,7 @@ struct SeenLamp {
     std::vector<Imath::V2i> all;
     std::vector<Imath::V2i> pixels; // those whose light belongs at the lamp's depth
     std::vector<Imath::V2i> at_its_depth;
-    bool settled = false; // by other views
+    bool repaired = false; // by other views
 };
 
 bool is_small(std::span<const Imath::V2i> pixels) {
@@ -90,13 +90,13 @@ class LampsOfView {
 public:
     LampsOfView(ViewSamples &view, double tolerance);
     std::span<const SeenLamp> lamps() const { return lamps_; }
-    void settle_by_neighbours();
+    void repair_by_neighbours();
     // The pixels of lamps that something crosses, ascending.
     std::vector<std::size_t> crossed() const;
     // The lamps whose depth is not known, by rows.
     std::vector<LampBeforeWall> unknown() const;
     // Settles lamps by others whose positions are in the centre view.
-    void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
+    void repair_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
 
 private:
     SeenLamp look_at(const CompactLamp &found, std::span<const double> around) const;
@@ -176,7 +176,7 @@ void LampsOfView::move(const Imath::V2i &pixel, double inverse_z) {
     if (!shown.empty()) view_.set_z(shown.front(), float(1 / inverse_z));
 }
 
-void LampsOfView::settle_by_neighbours() {
+void LampsOfView::repair_by_neighbours() {
     for (const SeenLamp &seen : lamps_) {
         if (seen.lamp.inverse_z == 0) continue;
         const std::vector<Imath::V2i> beside = grown(seen.at_its_depth, 1);
@@ -199,13 +199,13 @@ std::vector<std::size_t> LampsOfView::crossed() const {
 std::vector<LampBeforeWall> LampsOfView::unknown() const {
     std::vector<LampBeforeWall> found;
     for (const SeenLamp &seen : lamps_)
-        if (!seen.settled && seen.lamp.inverse_z == 0 && is_small(seen.pixels))
+        if (!seen.repaired && seen.lamp.inverse_z == 0 && is_small(seen.pixels))
             found.push_back({seen.lamp, seen.around});
     std::ranges::stable_sort(found, {}, [](const LampBeforeWall &of) { return of.lamp.place.y; });
     return found;
 }
 
-void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others) {
+void LampsOfView::repair_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others) {
     std::vector<KnownLamp> expected(others.begin(), others.end());
     for (KnownLamp &lamp : expected) lamp.place = mapping.in_view(lamp.place, lamp.inverse_z);
     std::erase_if(expected, [](const KnownLamp &lamp) { return !std::isfinite(lamp.place.y); });
@@ -213,7 +213,7 @@ void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const K
     std::ranges::stable_sort(expected, {}, row);
     for (SeenLamp &seen : lamps_) {
         const KnownLamp &own = seen.lamp;
-        if (seen.settled || own.inverse_z != 0 || !is_small(seen.pixels)) continue;
+        if (seen.repaired || own.inverse_z != 0 || !is_small(seen.pixels)) continue;
         double nearest = WarpTuning::lamp_same_place, inverse_z = 0;
         auto other = std::ranges::lower_bound(expected, own.place.y - WarpTuning::lamp_same_place, {}, row);
         for (; other != expected.end() && other->place.y <= own.place.y + WarpTuning::lamp_same_place;
@@ -224,14 +224,14 @@ void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const K
             inverse_z = other->inverse_z;
         }
         if (!(inverse_z > seen.around + tolerance_)) continue;
-        seen.settled = true;
+        seen.repaired = true;
         for (const Imath::V2i &p : seen.pixels) move(p, inverse_z);
     }
 }
 
 } // namespace
 
-std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
+std::vector<CrossedLamps> repair_lamp_depths(std::span<ViewSamples> views,
                                              std::span<const ViewMapping> mappings, double tolerance) {
     std::vector<std::optional<LampsOfView>> found(views.size());
     parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
@@ -245,8 +245,8 @@ std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
                 mappings[v].at_infinity(lamp.place) + mappings[v].parallax(lamp.place) * lamp.inverse_z;
         }
     parallel_for(views.size(), [&](std::size_t v) {
-        found[v]->settle_by_neighbours();
-        found[v]->settle_by_others(mappings[v], known);
+        found[v]->repair_by_neighbours();
+        found[v]->repair_by_others(mappings[v], known);
     });
     std::vector<CrossedLamps> crossed;
     std::vector<std::vector<LampBeforeWall>> unknown;
@@ -256,7 +256,7 @@ std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
     }
     const std::vector<KnownLamp> by_parallax = depths_by_parallax(unknown, mappings, tolerance);
     if (by_parallax.empty()) return crossed;
-    parallel_for(views.size(), [&](std::size_t v) { found[v]->settle_by_others(mappings[v], by_parallax); });
+    parallel_for(views.size(), [&](std::size_t v) { found[v]->repair_by_others(mappings[v], by_parallax); });
     return crossed;
 }
 

@@ -25,7 +25,7 @@ using CrossedLamps = std::vector<std::size_t>;
 // Views must have at most one sample per pixel. mappings[v] tells where the centre view shows what views[v] shows.
 // Depths whose inverses differ by less than `tolerance`, > 0, are one surface. Returns the crossed lamps of each view.
 // The result does not depend on the order of the views.
-std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
+std::vector<CrossedLamps> repair_lamp_depths(std::span<ViewSamples> views,
                                              std::span<const ViewMapping> mappings, double tolerance);
 
 } // namespace sparselens

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 const Windows wide = windows_of_size(640, 360);
-const Tell nobody = [](const Notice &) {};
+const Notify nobody = [](const Notice &) {};
 
 // A camera turned by rotations about all axes.
 Camera some_camera(double metres_per_unit) {

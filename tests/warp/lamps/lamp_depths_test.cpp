@@ -27,13 +27,13 @@ constexpr ViewPixel none{.z = 0};
 
 // The pixels whose depth changes, with the new depth.
 using Moved = std::vector<std::pair<Imath::V2i, float>>;
-Moved settled(const std::vector<View> &views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
+Moved repaired(const std::vector<View> &views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
     std::vector<ViewMapping> mappings;
     std::vector<ViewSamples> samples;
     for (const View &view : views) samples.emplace_back(view, view.image.channels);
     for (const Imath::V2d &position : positions)
         mappings.emplace_back(position, focal_px, samples[0].windows);
-    settle_lamp_depths(samples, mappings, tolerance);
+    repair_lamp_depths(samples, mappings, tolerance);
     Moved moved;
     for (std::size_t v = 0; v < views.size(); ++v)
         for (std::size_t i = 0; i < views[v].z.size(); ++i)
@@ -48,7 +48,7 @@ TEST(LampDepths, PixelsOfASmallLampTakeTheDepthOfThoseBeside) {
     const auto between = [](int x, int y) {
         return in_square(x, y) ? shining(x == 11 && y == 11 ? lamp : wall, 500) : none;
     };
-    EXPECT_EQ(settled({picture(between)}), (Moved{{{10, 10}, lamp}, {{11, 10}, lamp}, {{10, 11}, lamp}}));
+    EXPECT_EQ(repaired({picture(between)}), (Moved{{{10, 10}, lamp}, {{11, 10}, lamp}, {{10, 11}, lamp}}));
 }
 
 // A lamp of five pixels; its corners show a tenth and 0.4 of it.
@@ -58,7 +58,7 @@ TEST(LampDepths, EdgesOfLargerLampsStay) {
         if (x == 10 && y == 10) return shining(wall, 50);
         return x == 14 && y == 14 ? shining(wall, 200) : shining(lamp, 500);
     };
-    EXPECT_EQ(settled({picture(larger)}), (Moved{{{14, 14}, lamp}}));
+    EXPECT_EQ(repaired({picture(larger)}), (Moved{{{14, 14}, lamp}}));
 }
 
 TEST(LampDepths, StayWhereSomethingElseMayBeSeen) {
@@ -76,7 +76,7 @@ TEST(LampDepths, StayWhereSomethingElseMayBeSeen) {
     };
     for (const auto &scene : std::vector<std::function<ViewPixel(int, int)>>{on_the_wall, beside_a_post,
                                                                              on_a_wire, lamps_in_line})
-        EXPECT_EQ(settled({picture(scene)}), Moved{});
+        EXPECT_EQ(repaired({picture(scene)}), Moved{});
 }
 
 // Column 11 is a strand that covers half of each pixel of a lamp of 3 x 3; the lamp's first column has the wall's
@@ -88,14 +88,14 @@ ViewPixel crossed(int x, int y, int strand = 11, int left = 10) {
 }
 
 TEST(LampDepths, AStrandMayCrossTheLamp) {
-    EXPECT_EQ(settled({picture([](int x, int y) { return crossed(x, y); })}),
+    EXPECT_EQ(repaired({picture([](int x, int y) { return crossed(x, y); })}),
               (Moved{{{10, 10}, lamp}, {{10, 11}, lamp}, {{10, 12}, lamp}}));
     const auto of_one_depth = [](int x, int y) { // the lamp is on the wall
         ViewPixel p = crossed(x, y);
         if (p.z == lamp) p.z = wall;
         return p;
     };
-    EXPECT_EQ(settled({picture(of_one_depth)}), Moved{});
+    EXPECT_EQ(repaired({picture(of_one_depth)}), Moved{});
 }
 
 // A second view sees the lamp beside the strand: there the lamp is three pixels farther left, the strand four.
@@ -139,10 +139,10 @@ TEST(LampDepths, OtherViewsTell) {
         return [light](int x, int y) { return in_square(x - 1, y) ? shining(wall, float(light)) : none; };
     };
     const std::vector<Imath::V2d> stand{{0, 0}, {-double(lamp) / focal_px, 0}};
-    EXPECT_EQ(settled({picture(before), picture(flat(450))}, stand),
+    EXPECT_EQ(repaired({picture(before), picture(flat(450))}, stand),
               (Moved{{{11, 10}, lamp}, {{12, 10}, lamp}, {{11, 11}, lamp}, {{12, 11}, lamp}}));
-    EXPECT_EQ(settled({picture(before), picture(flat(200))}, stand), Moved{});            // another light
-    EXPECT_EQ(settled({picture(before), picture(flat(450))}, {{0, 0}, {0, 0}}), Moved{}); // another place
+    EXPECT_EQ(repaired({picture(before), picture(flat(200))}, stand), Moved{});            // another light
+    EXPECT_EQ(repaired({picture(before), picture(flat(450))}, {{0, 0}, {0, 0}}), Moved{}); // another place
 }
 
 // All views have the wall's depth. In each view the lamps are where a depth of 2 would put them, or where the wall's
@@ -162,7 +162,7 @@ TEST(LampDepths, ThePlacesInAllViewsTell) {
                 const bool on = apart > 0 ? left % apart == 0 && top % apart == 0 : left == 0 && top == 0;
                 return on && int(v) < shown ? shining(wall, 500) : none;
             }));
-        return settled(views, stand);
+        return repaired(views, stand);
     };
     EXPECT_EQ(
         seen(double(lamp), 5, 0),

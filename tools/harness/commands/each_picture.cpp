@@ -1,8 +1,8 @@
 #include "harness/commands/each_picture.h"
 
 #include "base/error.h"
+#include "harness/commands/file_arguments.h"
 #include "harness/commands/frames.h"
-#include "harness/commands/named_files.h"
 #include "io/moment_files.h"
 
 #include <fmt/format.h>

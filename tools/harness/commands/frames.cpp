@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "chain/parameters.h"
-#include "harness/commands/named_files.h"
+#include "harness/commands/file_arguments.h"
 #include "io/moment_files.h"
 
 #include <OpenImageIO/filesystem.h>

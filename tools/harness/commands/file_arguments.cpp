@@ -1,4 +1,4 @@
-#include "harness/commands/named_files.h"
+#include "harness/commands/file_arguments.h"
 
 #include "base/error.h"
 #include "base/text.h"
