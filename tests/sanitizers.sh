@@ -20,7 +20,7 @@ export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # sanitizers
 
 # These tests take half of the total time.
 slowest='GatherRows.BlurFarWiderThanTheCellsAroundIsTheSame
-BeyondFrame.ElementsThatTheFrameCutsOffStayOpaque
+FrameExtension.ElementsThatTheFrameCutsOffStayOpaque
 Invariants.FourTimesTheLensPointsAreCloserToTheTruth
 LensLooks.GiveTheSameBitsOnAnyNumberOfThreads
 Cells.ALampKeepsItsDisc'

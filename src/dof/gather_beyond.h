@@ -1,7 +1,7 @@
 // Gathers an LDI after continuing beyond the frame what leaves it.
 #pragma once
 
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/lens/beyond/frame_extension.h"
 #include "dof/methods.h"
 
 #include <utility>
@@ -15,9 +15,9 @@ Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &wind
                     const GatherOptions &options, const Gather &gather) {
     if (!options.beyond) return gather(ldi, options.lens);
     LensGatherOptions by = options.lens;
-    const BeyondFrame all =
-        go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.looks, options.beyond->frame,
-                     by.known.value_or(window), options.beyond->reach, by.across, options.views_radius);
+    const FrameExtension all = extend_beyond_frame(std::forward<AnyLdi>(ldi), lens, by.looks,
+                                                   options.beyond->frame, by.known.value_or(window),
+                                                   options.beyond->reach, by.across, options.views_radius);
     by.known = all.known;
     by.unseen = all.unseen;
     by.seen = options.beyond->frame;

@@ -4,7 +4,7 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "dof/border_reach.h"
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/lens/beyond/frame_extension.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/merge_layers.h"
@@ -219,7 +219,7 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
     // Highlights look at the adjacent cells. Sharpening looks at the noise blocks beside those, and at one more row.
-    // The continuation beyond the left and the right of the frame (beyond_frame.h) looks at as many rows of the picture
+    // The continuation beyond the left and the right of the frame (frame_extension.h) looks at as many rows of the picture
     // as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
             (2 + across) * highlight_rows + BlockedSamples::size};

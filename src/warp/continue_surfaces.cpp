@@ -150,7 +150,7 @@ std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, doubl
                                         const Imath::Box2i &frame, const Continuing &continuing) {
     std::vector<std::vector<Run>> rows(std::size_t(frame.max.y - frame.min.y + 1));
     for (const PlacedView &view : views) {
-        const Sight sight = farthest_around(*view.samples, farthest_in(*view.samples));
+        const FarthestDepth sight = farthest_around(*view.samples, farthest_in(*view.samples));
         const auto may_be = [&](const Hidden &hidden) {
             const Imath::V2d middle = Imath::V2d(ldi.windows.pixel(hidden.pixel)) + Imath::V2d(0.5, 0.5);
             const auto farthest = sight.at(view.mapping->in_view(middle, hidden.depth / scale));
@@ -228,7 +228,7 @@ namespace {
 constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::sight_margin;
 
 // By how much the largest and the least 1 / z within reach differ.
-Sight relief_around(const ViewSamples &view, std::vector<float> farthest) {
+FarthestDepth relief_around(const ViewSamples &view, std::vector<float> farthest) {
     const Grid grid(view.windows.data);
     std::vector<float> relief = least_around(farthest, grid, reach);
     for (float &v : farthest) v = -v;
@@ -288,9 +288,9 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
     Pixels solid(ldi);
     for (const PlacedView &view : views) {
         std::vector<float> farthest_seen = farthest_in(*view.samples);
-        const Sight sight = farthest_around(*view.samples, farthest_seen);
+        const FarthestDepth sight = farthest_around(*view.samples, farthest_seen);
         if (&view == &views[0]) { // the centre view; few pixels are kept here
-            const Sight relief = relief_around(*view.samples, std::move(farthest_seen));
+            const FarthestDepth relief = relief_around(*view.samples, std::move(farthest_seen));
             solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
                 return s.image_z == s.z && back(s) > thickness &&
                        double(relief.at(place).value_or(0)) > WarpTuning::solid_relief_px * step;
@@ -349,7 +349,7 @@ std::vector<float> least_around(const std::vector<float> &values, const Grid &gr
     return least;
 }
 
-Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {
+FarthestDepth farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {
     return {view, least_around(farthest, Grid(view.windows.data), WarpTuning::sight_margin)};
 }
 

@@ -55,9 +55,9 @@ std::vector<float> farthest_in(const ViewSamples &view);
 std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius);
 
 // Looks up values of a view by position.
-class Sight {
+class FarthestDepth {
 public:
-    Sight(const ViewSamples &view, std::vector<float> values)
+    FarthestDepth(const ViewSamples &view, std::vector<float> values)
         : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
 
     // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
@@ -75,6 +75,6 @@ private:
 };
 
 // 1 / z of the farthest thing in a pixel of the view and in those around it, up to WarpTuning::sight_margin.
-Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest);
+FarthestDepth farthest_around(const ViewSamples &view, const std::vector<float> &farthest);
 
 } // namespace sparselens

@@ -16,11 +16,11 @@ dof/footprints/interpolation_blur.cpp cocs n offsets
 dof/footprints/interpolation_blur.h largest_weight
 dof/gather_rows.cpp beside highlight_rows most rows_at_once
 dof/border_reach.cpp rows_at_once
-dof/lens/beyond/beyond_frame.cpp cell
+dof/lens/beyond/frame_extension.cpp cell
 dof/lens/tile_plan.cpp blocks_in_run
 dof/lens/shadow_areas.cpp in_step
 dof/lens/highlights.h cell octaves
-dof/lens/see.cpp half
+dof/lens/visibility.cpp half
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/highlight_shadows.cpp rounding
@@ -36,7 +36,7 @@ dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
 dof/lens/tile_plan.h final_points largest_coc normal_points
 dof/lens/lens_gather.h lens_tile_size
-dof/lens/weigh.h sides
+dof/lens/accumulator.h sides
 dof/lens/sample_blocks.h background size
 dof/lens/sharpen.cpp noise_block
 dof/lens/tile_projection.cpp rounding

@@ -19,7 +19,7 @@ constexpr int beside = 2; // cells on either side of a pixel that it is interpol
 int floor_of(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 // The cells of a row or a column that a pixel is interpolated from, and their weights.
-struct Taps {
+struct InterpolationWeights {
     std::size_t first, nearest; // cells of the tile
     std::array<float, 4> weight;
 };
@@ -41,8 +41,8 @@ std::array<float, 4> weights_of(double begin, double end) {
     return {float(weight[0]), float(weight[1]), float(weight[2]), float(weight[3])};
 }
 
-std::array<Taps, size> taps_of(int first_pixel, int first_cell, int across) {
-    std::array<Taps, size> taps;
+std::array<InterpolationWeights, size> taps_of(int first_pixel, int first_cell, int across) {
+    std::array<InterpolationWeights, size> taps;
     for (int n = 0; n < size; ++n) {
         // In cells from the middle of cell 0, times 2 across.
         const int twice = 2 * (first_pixel + n) + 1 - across;
@@ -70,7 +70,7 @@ Float4 sum_of(const std::array<float, 4> &weight, CellRange range, const At &at)
 struct Interpolation {
     const TilePicture &cells;
     std::size_t count; // cells across and down
-    std::array<Taps, size> across, down;
+    std::array<InterpolationWeights, size> across, down;
     CellRange range;
 
     bool known(std::size_t column, std::size_t row) const { return cells.is_known(row * size + column); }

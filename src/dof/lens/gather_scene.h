@@ -74,7 +74,7 @@ private:
     std::vector<float> left_; // [pixel]: the share that is left; empty: all
 };
 
-struct HeldOut {
+struct HoldoutLookup {
     const Holdout *by = nullptr;
     double depth_at_1 = 1;   // disparity at z = 1
     Imath::V2i corner{0, 0}; // of the data window that the samples are relative to, EXR coordinates
@@ -92,7 +92,7 @@ struct GatherScene {
     KnownPixels known; // of its pixels
     ThinLens lens;
     std::unique_ptr<const Optics> optics; // on the heap, because its parts refer to each other
-    HeldOut held_out;                     // what stays sharp
+    HoldoutLookup held_out;               // what stays sharp
     BlockedSamples samples;
     SampleColours colours; // without what highlights spread; empty if nothing is out of focus
     Highlights highlights;

@@ -127,7 +127,7 @@ void HighlightTile::spread_one(std::uint32_t highlight) {
     from.together = shadows_.only_shares();
     any_together_ = any_together_ || from.together;
     const LampShadow *shadow = in_cells && from.shadowed ? &shadows_.own() : nullptr;
-    if (square > 0 || skewed) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
+    if (square > 0 || skewed) return spread_small(cells->shine(lamp, square, shadow, reached_), from);
     std::optional<LampLight> light;
     if (shadow) light = cells->shine(lamp, 0, shadow, reached_);
     from.few = light ? &*light : nullptr;
@@ -149,7 +149,7 @@ const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
 }
 
 // Spreads a disc of few pixels near the focus. `light` is what is left after shadows.
-void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
+void HighlightTile::spread_small(const LampLight &light, const Spreading &from) {
     const Spreading lit{from.highlight, from.sample, from.lamp};
     for (int y = light.box.min.y; y <= light.box.max.y; ++y)
         for (int x = light.box.min.x; x <= light.box.max.x; ++x) {

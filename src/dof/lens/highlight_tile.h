@@ -53,7 +53,7 @@ private:
     Imath::Box2i reach_of(const Lamp &lamp);
     void spread_group(std::span<const std::uint32_t> group);
     void spread_one(std::uint32_t highlight);
-    void spread_few(const LampLight &light, const Spreading &from);
+    void spread_small(const LampLight &light, const Spreading &from);
     void spread_disc(const Spreading &from);
     void add_whole(const Spreading &from, double weight);
     void spread_shape(const Spreading &from);
@@ -72,7 +72,7 @@ private:
     const Highlights &highlights_ = scene_.highlights;
     const Aperture &aperture_ = scene_.optics->aperture;
     const CatEye &cat_eye_ = scene_.optics->cat_eye;
-    const HeldOut &held_out_ = scene_.held_out;
+    const HoldoutLookup &held_out_ = scene_.held_out;
     const std::vector<ColourSet> &sets_ = scene_.colours.sets;
     HighlightShadows shadows_;
     Imath::V2d half_extent_; // of the aperture, for each pixel of CoC

@@ -3,11 +3,11 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/device/tile_device.h"
+#include "dof/lens/accumulator.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/highlight_tile.h"
-#include "dof/lens/see.h"
 #include "dof/lens/tile_plan.h"
-#include "dof/lens/weigh.h"
+#include "dof/lens/visibility.h"
 #include "dof/tuning.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -21,8 +21,8 @@
 
 namespace sparselens {
 
-// Gathers one tile of the lens picture. Every lens point sees its own picture of the samples (see.h); the tile is the
-// mean over the lens points (weigh.h).
+// Gathers one tile of the lens picture. Every lens point sees its own picture of the samples (visibility.h); the tile is the
+// mean over the lens points (accumulator.h).
 
 // Calls done(picture) with the result.
 void gather_tile(const GatherScene &scene, const TileTask &tile,
@@ -212,10 +212,10 @@ namespace {
 template <typename Light>
 void gather_by(const GatherScene &scene, const TileTask &tile,
                const std::function<void(const TilePicture &)> &done) {
-    See see(scene, tile);
-    Weigh<Light> weigh(scene, see.seen());
-    for (const LensSample &point : tile.lens) weigh.add(see.through(point), point);
-    done(weigh.picture());
+    VisibilityPass visibility(scene, tile);
+    Accumulator<Light> sums(scene, visibility.seen());
+    for (const LensSample &point : tile.lens) sums.add(visibility.through(point), point);
+    done(sums.picture());
 }
 
 // Whether any sample of some blocks may lie in front of focus.
@@ -235,11 +235,11 @@ void gather_tile(const GatherScene &scene, const TileTask &tile,
         std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.rgb != no_factors; });
     if (rims && (reaches_in_front(scene.samples, tile.samples) ||
                  reaches_in_front(scene.fillers.samples, tile.fillers)))
-        gather_by<ChannelLight<2>>(scene, tile, done);
+        gather_by<ChannelWeights<2>>(scene, tile, done);
     else if (rims || coloured || scene.cat_eye())
-        gather_by<ChannelLight<1>>(scene, tile, done);
+        gather_by<ChannelWeights<1>>(scene, tile, done);
     else
-        gather_by<EvenLight>(scene, tile, done);
+        gather_by<UniformWeights>(scene, tile, done);
 }
 
 } // namespace sparselens

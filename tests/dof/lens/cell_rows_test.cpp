@@ -1,4 +1,4 @@
-#include "dof/lens/see.h"
+#include "dof/lens/visibility.h"
 #include "kernels/lens_rules.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Solids behind samples as a lens point sees them: closed forms.
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/see_fixture.h"
+#include "dof/lens/visibility_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ struct SeenSolid {
         scene.solids = solids;
         TileTask task = tile.task();
         task.solids = tile.blocks;
-        See see(scene, task);
-        return see.through(tile.points[0]).front[tile_cells::at(x, 7)];
+        VisibilityPass visibility(scene, task);
+        return visibility.through(tile.points[0]).front[tile_cells::at(x, 7)];
     }
 };
 

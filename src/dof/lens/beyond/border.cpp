@@ -78,8 +78,8 @@ std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i 
     return found;
 }
 
-std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool looked) const {
-    std::vector<Leaving> found;
+std::vector<BorderSample> Border::leaving(const Line &line, int i, float level, bool looked) const {
+    std::vector<BorderSample> found;
     for (int n = 0; ldi_.windows.data.intersects(line.pixel(i, n)) && (n == 0 || looked); ++n)
         for (const std::uint64_t of : samples(line.pixel(i, n))) {
             if (looked && !seen_last(of, line, i, n)) continue;

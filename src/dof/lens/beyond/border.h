@@ -23,7 +23,7 @@ inline bool is_one_surface(double a, double b) {
 }
 
 // A sample that continues beyond the frame.
-struct Leaving {
+struct BorderSample {
     std::uint32_t sample;
     double depth; // disparity, in pixels of the lens from whose rim views looked
     int from;     // where it was seen last: pixels beyond the border
@@ -38,7 +38,7 @@ struct Leaving {
 
 // At a pixel of the border.
 struct BorderPixel {
-    std::vector<Leaving> leaving;
+    std::vector<BorderSample> leaving;
     bool open = true; // lets light through to infinity
     // The surface in front ends `ends` pixels beyond the border. Beyond its end, what lies behind it continues, as it
     // is `behind` pixels within the border.
@@ -68,7 +68,7 @@ public:
 
 private:
     struct Line;
-    std::vector<Leaving> leaving(const Line &line, int i, float level, bool looked) const;
+    std::vector<BorderSample> leaving(const Line &line, int i, float level, bool looked) const;
     bool seen_last(std::uint64_t sample, const Line &line, int i, int n) const;
     void find_end(BorderPixel &of, const Line &line, int i) const;
     double front(const Imath::V2i &at) const;

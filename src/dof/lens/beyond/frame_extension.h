@@ -28,7 +28,7 @@
 
 namespace sparselens {
 
-struct BeyondFrame {
+struct FrameExtension {
     Ldi ldi; // its data window grown by whole cells of 32 pixels, so that samples are kept in the same blocks
     // The pixels that are transparent to infinity if they are empty, except those marked in `unseen`,
     // [pixel of the data window].
@@ -46,11 +46,11 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
 // above are counted in pixels of the picture, except what rim views saw. `views_radius`: the radius of the lens from
 // whose rim the views looked, scene units; disparity in the pixels of that lens says what they saw. 0: the
 // radius of `lens`.
-BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
-                         int across = 1, double views_radius = 0);
-BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach, int across = 1,
-                         double views_radius = 0);
+FrameExtension extend_beyond_frame(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
+                                   const Imath::Box2i &frame, const Imath::Box2i &known,
+                                   const Imath::V2i &reach, int across = 1, double views_radius = 0);
+FrameExtension extend_beyond_frame(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks,
+                                   const Imath::Box2i &frame, const Imath::Box2i &known,
+                                   const Imath::V2i &reach, int across = 1, double views_radius = 0);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-#include "dof/lens/weigh.h"
+#include "dof/lens/accumulator.h"
 
 #include "kernels/lens_rules.h"
 
@@ -18,7 +18,7 @@ std::size_t pixel_of(std::size_t cell) { return std::size_t(row(cell) * size + c
 } // namespace
 
 template <typename Light>
-Weigh<Light>::Weigh(const GatherScene &scene, const Seen &tile)
+Accumulator<Light>::Accumulator(const GatherScene &scene, const Visibility &tile)
     : scene_(scene), held_out_(scene.held_out), light_(scene), left_(count, 1.0f),
       over_(Light::sides * scene.colours.groups * count * 4), in_front_(Light::sides > 1 ? count : 0),
       covered_cells_(count + 1), sums_(scene.colours.groups * pixels * 4), known_(sums_.size() / 4) {
@@ -30,7 +30,7 @@ Weigh<Light>::Weigh(const GatherScene &scene, const Seen &tile)
 }
 
 template <typename Light>
-void Weigh<Light>::add(const Seen &seen, const LensSample &point) {
+void Accumulator<Light>::add(const Visibility &seen, const LensSample &point) {
     light_.count(point, seen);
     add_opaque(seen);
     add_fillers(seen);
@@ -40,7 +40,7 @@ void Weigh<Light>::add(const Seen &seen, const LensSample &point) {
 }
 
 template <typename Light>
-void Weigh<Light>::add_opaque(const Seen &seen) {
+void Accumulator<Light>::add_opaque(const Visibility &seen) {
     const bool held_out = held_out_.by != nullptr;
     for (std::size_t g = 0; g < scene_.colours.groups; ++g) {
         const float *colours = scene_.colours.group(g).data();
@@ -65,7 +65,7 @@ void Weigh<Light>::add_opaque(const Seen &seen) {
 
 // The background of empty cells without a filler is unknown.
 template <typename Light>
-void Weigh<Light>::add_fillers(const Seen &seen) {
+void Accumulator<Light>::add_fillers(const Visibility &seen) {
     seen.for_each_empty([&](std::size_t cell) {
         const std::size_t pixel = pixel_of(cell);
         const Opaque filler = opaque_at(seen, cell);
@@ -81,7 +81,7 @@ void Weigh<Light>::add_fillers(const Seen &seen) {
 
 // Composites the partial samples. Most pictures have one group of channels, and most of their time goes here.
 template <typename Light>
-void Weigh<Light>::cover(const Seen &seen) {
+void Accumulator<Light>::cover(const Visibility &seen) {
     const auto all = [](std::size_t, std::size_t) { return 1.0f; };
     const auto held_out = [&](std::size_t n, std::size_t cell) {
         return passes(seen, cell, seen.partial.depth[n]);
@@ -94,7 +94,7 @@ void Weigh<Light>::cover(const Seen &seen) {
 
 template <typename Light>
 template <typename Groups, typename Passes>
-void Weigh<Light>::cover_by(const Seen &seen, Groups groups, const Passes &passed) {
+void Accumulator<Light>::cover_by(const Visibility &seen, Groups groups, const Passes &passed) {
     const PartialSamples &partial = seen.partial;
     const std::size_t samples = partial.count();
     const std::int32_t *cells = seen.partial_cells.data();
@@ -121,7 +121,7 @@ void Weigh<Light>::cover_by(const Seen &seen, Groups groups, const Passes &passe
 
 // Puts the partial samples in front of what add_opaque() and add_fillers() added.
 template <typename Light>
-void Weigh<Light>::add_covered(const Seen &seen) {
+void Accumulator<Light>::add_covered(const Visibility &seen) {
     const std::size_t groups = scene_.colours.groups;
     for (const std::uint32_t cell : covered_) {
         const int x = column(cell), y = row(cell);
@@ -143,7 +143,7 @@ void Weigh<Light>::add_covered(const Seen &seen) {
 }
 
 template <typename Light>
-void Weigh<Light>::uncover() {
+void Accumulator<Light>::uncover() {
     const std::size_t layers = Light::sides * scene_.colours.groups;
     for (const std::uint32_t cell : covered_) {
         left_[cell] = 1;
@@ -154,7 +154,7 @@ void Weigh<Light>::uncover() {
 }
 
 template <typename Light>
-TilePicture Weigh<Light>::picture() {
+TilePicture Accumulator<Light>::picture() {
     const std::vector<float> known = light_.known(scene_.colours.groups);
     for (std::size_t n = 0; n < known.size(); ++n) {
         sums_[n] = known[n] > 0 ? sums_[n] / known[n] : 0;
@@ -165,12 +165,13 @@ TilePicture Weigh<Light>::picture() {
 
 // Backgrounds lie behind focus, wherever they are seen.
 template <typename Light>
-std::size_t Weigh<Light>::side_of(std::uint64_t key) const {
+std::size_t Accumulator<Light>::side_of(std::uint64_t key) const {
     return Light::sides > 1 && !is_background(key) && scene_.samples.coc[std::uint32_t(key)] < 0 ? 1 : 0;
 }
 
 template <typename Light>
-typename Weigh<Light>::Opaque Weigh<Light>::opaque_at(const Seen &seen, std::size_t cell) const {
+typename Accumulator<Light>::Opaque Accumulator<Light>::opaque_at(const Visibility &seen,
+                                                                  std::size_t cell) const {
     const auto of = [](const SampleColours &colours, std::uint64_t key, std::size_t side) {
         return Opaque{colours.values.data() + std::size_t(std::uint32_t(key)) * 4, colours.count * 4, side};
     };
@@ -182,13 +183,13 @@ typename Weigh<Light>::Opaque Weigh<Light>::opaque_at(const Seen &seen, std::siz
 }
 
 template <typename Light>
-float Weigh<Light>::passes(const Seen &seen, std::size_t cell, float depth) const {
+float Accumulator<Light>::passes(const Visibility &seen, std::size_t cell, float depth) const {
     const int x = column(cell), y = row(cell);
     return in_tile(x, y) ? held_out_.passes(seen.origin + Imath::V2i(x, y), depth) : 1;
 }
 
 template <typename Light>
-float Weigh<Light>::opaque_passes(const Seen &seen, std::size_t cell) const {
+float Accumulator<Light>::opaque_passes(const Visibility &seen, std::size_t cell) const {
     if (!held_out_.by) return 1;
     const std::uint64_t front = seen.front[cell];
     return passes(seen, cell,
@@ -196,9 +197,9 @@ float Weigh<Light>::opaque_passes(const Seen &seen, std::size_t cell) const {
                              : scene_.fillers.samples.depth(std::uint32_t(seen.filler[cell])));
 }
 
-template class Weigh<EvenLight>;
-template class Weigh<ChannelLight<1>>;
-template class Weigh<ChannelLight<2>>;
+template class Accumulator<UniformWeights>;
+template class Accumulator<ChannelWeights<1>>;
+template class Accumulator<ChannelWeights<2>>;
 
 using namespace tile_cells;
 
@@ -210,7 +211,7 @@ void add(double *to, Float4 values) {
 
 } // namespace
 
-std::vector<float> EvenLight::known(std::size_t groups) const {
+std::vector<float> UniformWeights::known(std::size_t groups) const {
     std::vector<float> known;
     known.reserve(groups * pixels * 4);
     for (std::size_t g = 0; g < groups; ++g)
@@ -220,7 +221,7 @@ std::vector<float> EvenLight::known(std::size_t groups) const {
 }
 
 template <std::size_t sides_>
-ChannelLight<sides_>::ChannelLight(const GatherScene &scene)
+ChannelWeights<sides_>::ChannelWeights(const GatherScene &scene)
     : scene_(scene), steps_(scene.colours.groups * size * (size + 1) * 4),
       lost_(scene.colours.groups * pixels * 4), in_front_(sides > 1 ? lost_.size() : 0) {
     for (auto *of : {&light_, &weight_})
@@ -228,7 +229,7 @@ ChannelLight<sides_>::ChannelLight(const GatherScene &scene)
 }
 
 template <std::size_t sides_>
-void ChannelLight<sides_>::count(const LensSample &point, const Seen &seen) {
+void ChannelWeights<sides_>::count(const LensSample &point, const Visibility &seen) {
     total_ += point.weight;
     weigh_channels(point);
     double *row = steps_.data();
@@ -245,7 +246,7 @@ void ChannelLight<sides_>::count(const LensSample &point, const Seen &seen) {
 }
 
 template <std::size_t sides_>
-void ChannelLight<sides_>::weigh_channels(const LensSample &point) {
+void ChannelWeights<sides_>::weigh_channels(const LensSample &point) {
     for (std::size_t k = 0; k < light_[0].size(); ++k) {
         const ColourSet set = scene_.colours.sets[k];
         const bool darkened = kernels::is_darkened(set, scene_.cat_eye() && scene_.cat_eye()->darkens());
@@ -260,13 +261,13 @@ void ChannelLight<sides_>::weigh_channels(const LensSample &point) {
 }
 
 template <std::size_t sides_>
-void ChannelLight<sides_>::lose(std::size_t pixel, float share) {
+void ChannelWeights<sides_>::lose(std::size_t pixel, float share) {
     for (std::size_t g = 0; g < scene_.colours.groups; ++g)
         add(&lost_[(g * pixels + pixel) * 4], share * load4(&weight_[0][g * 4]));
 }
 
 template <std::size_t sides_>
-void ChannelLight<sides_>::put_in_front(std::size_t pixel, float share) {
+void ChannelWeights<sides_>::put_in_front(std::size_t pixel, float share) {
     if constexpr (sides > 1)
         for (std::size_t g = 0; g < scene_.colours.groups; ++g) {
             float *more = &in_front_[(g * pixels + pixel) * 4];
@@ -275,7 +276,7 @@ void ChannelLight<sides_>::put_in_front(std::size_t pixel, float share) {
 }
 
 template <std::size_t sides_>
-std::vector<float> ChannelLight<sides_>::known(std::size_t groups) const {
+std::vector<float> ChannelWeights<sides_>::known(std::size_t groups) const {
     std::vector<float> known(groups * pixels * 4);
     const double *step = steps_.data();
     for (std::size_t row = 0, at = 0; row < groups * size; ++row, step += 4) {
@@ -287,7 +288,7 @@ std::vector<float> ChannelLight<sides_>::known(std::size_t groups) const {
     return known;
 }
 
-template class ChannelLight<1>;
-template class ChannelLight<2>;
+template class ChannelWeights<1>;
+template class ChannelWeights<2>;
 
 } // namespace sparselens

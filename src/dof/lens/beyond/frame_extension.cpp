@@ -1,4 +1,4 @@
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/lens/beyond/frame_extension.h"
 
 #include "base/grid.h"
 #include "base/parallel.h"
@@ -18,7 +18,7 @@
 namespace sparselens {
 
 // Samples picked from an LDI, and how much of their light is left.
-struct Picked {
+struct SampleSubset {
     std::vector<std::uint64_t> begin{0};                 // of each pixel, as Ldi::begin
     std::vector<std::uint32_t> from;                     // [new sample]
     std::vector<std::pair<std::uint32_t, float>> dimmed; // new samples
@@ -33,7 +33,7 @@ struct Picked {
 };
 
 // Puts the picked samples of `of` into `to`, which may be the same LDI. The windows of `to` do not change.
-void pick(const Ldi &of, Picked by, Ldi &to);
+void pick(const Ldi &of, SampleSubset by, Ldi &to);
 
 namespace {
 
@@ -57,7 +57,7 @@ public:
         windows_.data.extendBy(grown_.max);
         read_border();
     }
-    void run(Ldi &to, BeyondFrame &made) {
+    void run(Ldi &to, FrameExtension &made) {
         made.known = grown_;
         made.unseen.assign(windows_.pixels(), 0);
         const auto area = [](const Imath::Box2i &box) {
@@ -89,7 +89,7 @@ private:
     // Samples, and how much of their light is left.
     using Pixel = std::vector<std::pair<std::uint32_t, float>>;
 
-    void add_row(int y, BeyondFrame &made) {
+    void add_row(int y, FrameExtension &made) {
         const Imath::Box2i &data = ldi_.windows.data;
         const int from = std::max(frame_.min.x, data.min.x), to = std::min(frame_.max.x, data.max.x);
         const bool in_frame =
@@ -103,7 +103,7 @@ private:
                 picked_.end_pixel();
             }
     }
-    void add(const Imath::V2i &at, BeyondFrame &made) {
+    void add(const Imath::V2i &at, FrameExtension &made) {
         Pixel pixel;
         if (frame_.intersects(at) || !grown_.intersects(at)) {
             add_all(border_.samples(at), pixel);
@@ -139,7 +139,7 @@ private:
         add_all(own, pixel);
         if (border_.closed(own)) return border.open;
         const double shown = looked_[side] ? n - 0.5 : sky; // views showed all that is nearer
-        for (const Leaving &l : border.leaving)
+        for (const BorderSample &l : border.leaving)
             if (l.from < n && l.depth < shown) pixel.push_back({l.sample, l.light(n)});
         return border.open;
     }
@@ -167,7 +167,7 @@ private:
     Windows windows_;
     std::array<std::vector<BorderPixel>, 4> sides_; // along the sides of the known part
     std::array<bool, 4> looked_{};                  // whether rim views looked past the side
-    Picked picked_;
+    SampleSubset picked_;
 };
 
 } // namespace
@@ -189,18 +189,18 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
     return {int(std::ceil(std::min(reach.x, most))), int(std::ceil(std::min(reach.y, most)))};
 }
 
-BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
-                         int across, double views_radius) {
-    BeyondFrame made;
+FrameExtension extend_beyond_frame(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
+                                   const Imath::Box2i &frame, const Imath::Box2i &known,
+                                   const Imath::V2i &reach, int across, double views_radius) {
+    FrameExtension made;
     Continuation(ldi, lens, looks, frame, known, reach, across, views_radius).run(made.ldi, made);
     return made;
 }
 
-BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach, int across,
-                         double views_radius) {
-    BeyondFrame made;
+FrameExtension extend_beyond_frame(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks,
+                                   const Imath::Box2i &frame, const Imath::Box2i &known,
+                                   const Imath::V2i &reach, int across, double views_radius) {
+    FrameExtension made;
     Continuation(ldi, lens, looks, frame, known, reach, across, views_radius).run(ldi, made);
     made.ldi = std::move(ldi);
     return made;
@@ -216,7 +216,7 @@ std::vector<float> picked(const std::vector<float> &of, const std::vector<std::u
 
 } // namespace
 
-void Picked::keep_pixels(const Ldi &of, std::size_t first, std::size_t count) {
+void SampleSubset::keep_pixels(const Ldi &of, std::size_t first, std::size_t count) {
     const std::uint64_t begin_of = of.begin[first], end_of = of.begin[first + count];
     const std::uint64_t before = from.size() - begin_of; // may wrap round
     for (std::uint64_t i = begin_of; i < end_of; ++i) from.push_back(std::uint32_t(i));
@@ -224,7 +224,7 @@ void Picked::keep_pixels(const Ldi &of, std::size_t first, std::size_t count) {
         begin.push_back(before + of.begin[pixel + 1]);
 }
 
-void pick(const Ldi &of, Picked by, Ldi &to) {
+void pick(const Ldi &of, SampleSubset by, Ldi &to) {
     const std::vector<std::size_t> light = light_channels(of).all;
     to.channels = of.channels;
     to.values.resize(of.values.size());

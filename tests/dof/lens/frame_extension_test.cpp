@@ -2,7 +2,7 @@
 // lens, compared with the convolution of a shape that continues for ever.
 #include "base/grid.h"
 #include "dof/gather_picture.h"
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/lens/beyond/frame_extension.h"
 #include "lens/lens_points.h"
 #include "support/lens_ldi.h"
 
@@ -33,7 +33,7 @@ Ldi row_of(const std::vector<double> &cocs) {
 constexpr float unknown = -1, nothing = -2;
 
 // The values of the front samples of a row, `first` to `last` pixels beyond the frame.
-std::vector<float> values(const BeyondFrame &of, int first, int last) {
+std::vector<float> values(const FrameExtension &of, int first, int last) {
     std::vector<float> found;
     for (int x = first; x <= last; ++x) {
         if (!of.ldi.windows.data.intersects(Imath::V2i(x, 0))) {
@@ -49,16 +49,16 @@ std::vector<float> values(const BeyondFrame &of, int first, int last) {
     return found;
 }
 
-BeyondFrame beyond(const Ldi &ldi, const Imath::Box2i &frame) {
-    return go_on_beyond(ldi, lens, {}, frame, frame, look_beyond(ldi, lens, {}, frame));
+FrameExtension beyond(const Ldi &ldi, const Imath::Box2i &frame) {
+    return extend_beyond_frame(ldi, lens, {}, frame, frame, look_beyond(ldi, lens, {}, frame));
 }
 
-TEST(BeyondFrame, WhatLeavesItGoesOnAsFarAsTheLensSees) {
+TEST(FrameExtension, WhatLeavesItGoesOnAsFarAsTheLensSees) {
     std::vector<double> cocs(20, 5);
     cocs.front() = 1.4;
     cocs.back() = -2.9;
     const Ldi ldi = row_of(cocs);
-    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    const FrameExtension all = beyond(ldi, ldi.windows.data);
     EXPECT_EQ(values(all, -4, 1), (std::vector<float>{unknown, 0, 0, 0, 0, 1}));
     EXPECT_EQ(values(all, 18, 22), (std::vector<float>{18, 19, 19, 19, 19}));
     cocs.front() = cocs.back() = NAN;
@@ -69,7 +69,7 @@ TEST(BeyondFrame, WhatLeavesItGoesOnAsFarAsTheLensSees) {
 }
 
 // Rim views saw surfaces 5 pixels near up to five pixels beyond the frame, so they would have shown the rest of it.
-TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
+TEST(FrameExtension, WhatViewsWouldHaveShownIsNotMadeUp) {
     const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2; // CoCs 2.7 and 6.5
     const auto beside = [&](double last, const std::vector<double> &seen) {
         std::vector<double> cocs(20, far);
@@ -92,7 +92,7 @@ TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
 
 // The same views through a lens of half their aperture: they showed as much, and each surface continues once, from its
 // end.
-TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
+TEST(FrameExtension, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2;
     std::vector<double> cocs(20, far);
     cocs.insert(cocs.end(), {NAN, NAN, NAN, near, near});
@@ -101,9 +101,9 @@ TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     ThinLens stopped = lens;
     stopped.radius = lens.radius / 2;
     const auto beside = [&](const ThinLens &by, double views_radius) {
-        return go_on_beyond(ldi, by, {}, frame, frame, {7, 1}, 1, views_radius);
+        return extend_beyond_frame(ldi, by, {}, frame, frame, {7, 1}, 1, views_radius);
     };
-    const BeyondFrame open = beside(lens, 0), shut = beside(stopped, lens.radius);
+    const FrameExtension open = beside(lens, 0), shut = beside(stopped, lens.radius);
     EXPECT_EQ(values(shut, 19, 26), (std::vector<float>{19, unknown, 19, 19, 23, 24, 24, 24}));
     EXPECT_EQ(shut.ldi.z, open.ldi.z);
     EXPECT_EQ(shut.ldi.begin, open.ldi.begin);
@@ -112,7 +112,7 @@ TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
 
 // Three bars at the depth of the bar that the frame cuts off are 2 or 3 pixels wide; others are wider or at other
 // depths.
-TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
+TEST(FrameExtension, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     const auto bars = [&](int cut, std::vector<int> widths, double c) {
         std::vector<double> cocs(std::size_t(cut), -2.9);
         for (const int width : widths) {
@@ -133,7 +133,7 @@ TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
 
 // With 3 x 3 sub-pixels, the bars are as wide and as far apart in pixels of the picture as those above.
 // A see-through thing in the middle of a picture of few rows ends no surface, so it does not come back at the border.
-TEST(BeyondFrame, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
+TEST(FrameExtension, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
     for (const int rows : {64, 72, 95, 96, 120}) {
         const Ldi ldi = make_ldi(windows_of_size(8, rows), coloured, [&](int, int y) {
             std::vector<Sample> samples{{depth_of(lens, 4), {0.5f, 1}}};
@@ -141,14 +141,14 @@ TEST(BeyondFrame, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
                 samples.insert(samples.begin(), {depth_of(lens, -4), {0.9f, 0.9f}});
             return samples;
         });
-        const BeyondFrame all = beyond(ldi, ldi.windows.data);
+        const FrameExtension all = beyond(ldi, ldi.windows.data);
         for (int y = all.ldi.windows.data.min.y; y < 0; ++y)
             for (const std::uint64_t i : all.ldi.pixel(all.ldi.windows.index(4, y)))
                 EXPECT_EQ(all.ldi.values[0][i], 0.5f) << rows << " rows, row " << y;
     }
 }
 
-TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
+TEST(FrameExtension, WidthsAreCountedInPixelsOfThePicture) {
     const auto ends = [](int cut, int width, int apart) {
         std::vector<double> cocs(std::size_t(cut), -2.9);
         cocs.insert(cocs.end(), std::size_t(apart), 5);
@@ -156,7 +156,7 @@ TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
         cocs.insert(cocs.end(), 500, 5);
         const Ldi ldi = row_of(cocs);
         const Imath::Box2i frame = ldi.windows.data;
-        return values(go_on_beyond(ldi, lens, {}, frame, frame, {12, 1}, 3), -1, 0)[0] > 0;
+        return values(extend_beyond_frame(ldi, lens, {}, frame, frame, {12, 1}, 3), -1, 0)[0] > 0;
     };
     EXPECT_TRUE(ends(9, 6, 12)); // one pixel narrower
     EXPECT_FALSE(ends(9, 5, 12));
@@ -164,13 +164,13 @@ TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
     EXPECT_FALSE(ends(9, 9, 3 * 96));
 }
 
-TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
+TEST(FrameExtension, KeepsCoverageAndWhatIsBehind) {
     const Ldi ldi = make_ldi(windows_of_size(20, 1), grey_alpha, [](int x, int) {
         return x < 19
                    ? std::vector<Sample>{}
                    : std::vector<Sample>{{depth_of(lens, -4), {0.2f, 0.25f}}, {depth_of(lens, 3), {0.5f, 1}}};
     });
-    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    const FrameExtension all = beyond(ldi, ldi.windows.data);
     const SampleRange samples = all.ldi.pixel(all.ldi.windows.index(24, 0));
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_EQ(all.ldi.values[1][samples.front()], 0.25f);
@@ -179,12 +179,12 @@ TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
 }
 
 // A lamp of radius 5 pixels that is cut off 3 pixels from its middle has 2 pixels beyond.
-TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
+TEST(FrameExtension, SmallLightsGoOnAsDiscs) {
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [](int x, int y) {
         const float v = std::hypot(x + 0.5 - 3, y + 0.5 - 40) < 5 ? 100.0f : y < 10 ? 3.0f : 1.0f;
         return std::vector<Sample>{{depth_of(lens, 7), {v, 1}}};
     });
-    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    const FrameExtension all = beyond(ldi, ldi.windows.data);
     const auto value = [&](int x, int y) {
         return all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()];
     };
@@ -200,7 +200,7 @@ TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
 
 // A lamp of radius 5 pixels is 5 pixels beyond the frame at a disparity of 4 pixels: rim views saw four columns
 // of it.
-TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
+TEST(FrameExtension, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     const Imath::Box2i frame({10, 0}, {79, 79});
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [&](int x, int y) {
         const bool lamp = x >= 6 && std::hypot(x + 0.5 - 5, y + 0.5 - 40) < 5;
@@ -208,7 +208,7 @@ TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
                : x >= 9 ? std::vector<Sample>{{depth_of(lens, 7), {1, 1}}}
                         : std::vector<Sample>{};
     });
-    const BeyondFrame all = go_on_beyond(ldi, lens, {}, frame, frame, {20, 20});
+    const FrameExtension all = extend_beyond_frame(ldi, lens, {}, frame, frame, {20, 20});
     const auto light = [&](int x, int y) {
         return double(all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()]) / 100;
     };
@@ -218,11 +218,11 @@ TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
 }
 
 // Slow version: each pixel beyond the frame asks the nearest pixel of the frame.
-TEST(BeyondFrame, IsWhatTheRuleSays) {
+TEST(FrameExtension, IsWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
         const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
         const Imath::Box2i frame({5, 0}, {69, 45}); // views looked past the left and the lower side
-        const BeyondFrame all = beyond(ldi, frame);
+        const FrameExtension all = beyond(ldi, frame);
         const std::size_t alpha = opaque ? npos : ldi.alpha();
         const auto open = [&](const SampleRange &samples) {
             double left = 1;
@@ -432,7 +432,7 @@ const std::vector<Shape> shapes{
     {"over the opposite corner", [](double x, double y) { return x < 20 && y < 15; }},
 };
 
-TEST(BeyondFrame, ElementsThatTheFrameCutsOffStayOpaque) {
+TEST(FrameExtension, ElementsThatTheFrameCutsOffStayOpaque) {
     for (const auto &[name, inside] : shapes) {
         const Convolution shape(inside);
         for (const bool five : {false, true})
@@ -444,7 +444,7 @@ TEST(BeyondFrame, ElementsThatTheFrameCutsOffStayOpaque) {
     }
 }
 
-TEST(BeyondFrame, TheSkyBesideABarThatLeavesIsNoDarkerThere) {
+TEST(FrameExtension, TheSkyBesideABarThatLeavesIsNoDarkerThere) {
     for (const auto &[name, inside] : shapes) {
         const Convolution shape([&, &covers = inside](double x, double y) { // its pixels are whole
             return covers(std::floor(x) + 0.5, std::floor(y) + 0.5);

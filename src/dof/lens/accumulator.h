@@ -1,4 +1,4 @@
-// Adds what lens points see (see.h), weighted, to the sums of a tile.
+// Adds what lens points see (visibility.h), weighted, to the sums of a tile.
 //
 // Samples of partial coverage are composited front to back, as independent coverages, over the opaque sample behind
 // them; over a filler if there is no opaque sample. If the filler is unknown, too, they count by their coverage.
@@ -8,7 +8,7 @@
 
 #include "base/numbers.h"
 #include "dof/lens/gather_scene.h"
-#include "dof/lens/see.h"
+#include "dof/lens/visibility.h"
 
 #include <array>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace sparselens {
 // How a lens point counts at the pixels of a tile, and how much is known there.
 //
 // A lens point that sees something unknown is left out, and the weights of the others are renormalised. For this, the
-// known weight is summed up beside the light. These types are arguments of Weigh.
+// known weight is summed up beside the light. These types are arguments of Accumulator.
 
 // The partial samples of a pixel in front of an opaque one, for four channels.
 struct Covered {
@@ -32,15 +32,15 @@ struct Covered {
 };
 
 // Lens points that count alike for all channels, pixels and sides of the focus.
-class EvenLight {
+class UniformWeights {
 public:
     static constexpr std::size_t sides = 1;
 
-    explicit EvenLight(const GatherScene &) : unknown_(tile_cells::pixels) {}
+    explicit UniformWeights(const GatherScene &) : unknown_(tile_cells::pixels) {}
 
     // Counts a lens point as known, and behind focus, in all pixels that see through it. The calls that follow are for
     // this lens point.
-    void count(const LensSample &point, const Seen &) { total_ += weight_ = point.weight; }
+    void count(const LensSample &point, const Visibility &) { total_ += weight_ = point.weight; }
     // The factors on light of a group of channels.
     Float4 of(std::size_t, std::size_t) const { return Float4{} + weight_; }
     Float4 with(Float4 sum, std::size_t, const Covered &c) const {
@@ -62,13 +62,13 @@ private:
 // Lens points that count differently for R, G and B, or that not all pixels see through; with two `sides`, they also
 // count differently for what lies behind focus (0) and in front of it (1).
 template <std::size_t sides_>
-class ChannelLight {
+class ChannelWeights {
 public:
     static constexpr std::size_t sides = sides_;
 
-    explicit ChannelLight(const GatherScene &scene);
+    explicit ChannelWeights(const GatherScene &scene);
 
-    void count(const LensSample &point, const Seen &seen);
+    void count(const LensSample &point, const Visibility &seen);
     Float4 of(std::size_t group, std::size_t side) const { return load4(&light_[side][group * 4]); }
     Float4 with(Float4 sum, std::size_t group, const Covered &c) const {
         for (std::size_t side = 0; side < sides; ++side) sum += of(group, side) * c.over[side];
@@ -95,13 +95,13 @@ private:
 };
 
 template <typename Light>
-class Weigh {
+class Accumulator {
 public:
     // Begins a tile, before any lens point.
-    Weigh(const GatherScene &scene, const Seen &tile);
+    Accumulator(const GatherScene &scene, const Visibility &tile);
 
     // Adds what a lens point sees.
-    void add(const Seen &seen, const LensSample &point);
+    void add(const Visibility &seen, const LensSample &point);
 
     // Returns the mean over the known lens points. Past a cat-eye, it is the mean over those that it lets through, even
     // where it darkens. The sums are overwritten: call this once, when all lens points are added.
@@ -115,21 +115,21 @@ private:
 
         Float4 colour(std::size_t group) const { return load4(colours + group * group_step); }
     };
-    Opaque opaque_at(const Seen &seen, std::size_t cell) const;
+    Opaque opaque_at(const Visibility &seen, std::size_t cell) const;
     std::size_t side_of(std::uint64_t key) const;
     // The share of light that passes the holdout: from this depth, and from the opaque sample of the cell.
-    float passes(const Seen &seen, std::size_t cell, float depth) const;
-    float opaque_passes(const Seen &seen, std::size_t cell) const;
-    void add_opaque(const Seen &seen);
-    void add_fillers(const Seen &seen);
-    void cover(const Seen &seen);
+    float passes(const Visibility &seen, std::size_t cell, float depth) const;
+    float opaque_passes(const Visibility &seen, std::size_t cell) const;
+    void add_opaque(const Visibility &seen);
+    void add_fillers(const Visibility &seen);
+    void cover(const Visibility &seen);
     template <typename Groups, typename Passes>
-    void cover_by(const Seen &seen, Groups groups, const Passes &passed);
-    void add_covered(const Seen &seen);
+    void cover_by(const Visibility &seen, Groups groups, const Passes &passed);
+    void add_covered(const Visibility &seen);
     void uncover();
 
     const GatherScene &scene_;
-    HeldOut held_out_;
+    HoldoutLookup held_out_;
     Light light_;
     std::vector<float> partial_; // colours of the partial samples: [group][of each][4]
     // Partial samples of one lens point:

@@ -1,8 +1,8 @@
-// A hand-made tile of 64 x 64 pixels for tests of See and Weigh.
+// A hand-made tile of 64 x 64 pixels for tests of VisibilityPass and Accumulator.
 #pragma once
 
 #include "blocked_fixture.h"
-#include "dof/lens/see.h"
+#include "dof/lens/visibility.h"
 #include "support/lens_ldi.h"
 
 #include <algorithm>

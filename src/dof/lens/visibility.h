@@ -52,7 +52,7 @@ constexpr int row(std::size_t cell) { return int(cell) / stride - border; }
 } // namespace tile_cells
 
 // The lower half of a key names a sample of the picture, or a filler.
-struct Seen {
+struct Visibility {
     Imath::V2i origin;           // the tile's first pixel, relative to the data window's corner
     int rows = tile_cells::size; // rows of pixels that are asked for, from `origin` on
     PartialSamples partial;
@@ -81,15 +81,15 @@ struct Seen {
     }
 };
 
-class See {
+class VisibilityPass {
 public:
     // Looks at a tile. `scene` and `tile` must not change meanwhile.
-    See(const GatherScene &scene, const TileTask &tile);
+    VisibilityPass(const GatherScene &scene, const TileTask &tile);
 
     // Before any lens point: the tile, and its partial samples.
-    const Seen &seen() const { return seen_; }
+    const Visibility &seen() const { return seen_; }
     // The result changes with the next lens point.
-    const Seen &through(const LensSample &point);
+    const Visibility &through(const LensSample &point);
 
 private:
     struct Cells { // in pixels of the tile, right and bottom excluded
@@ -130,7 +130,7 @@ private:
     std::vector<Crack> cracks_;
     bool is_deep_ = true;
     std::vector<float> depths_; // [cell]: of what is in front there
-    Seen seen_;
+    Visibility seen_;
 };
 
 // Tests several cells of a tile at once: which of them are empty, and where a crack may lie. The results are

@@ -1,6 +1,6 @@
 // The sums that lens points contribute, by closed forms, for hand-made visible samples.
-#include "dof/lens/weigh.h"
-#include "see_fixture.h"
+#include "dof/lens/accumulator.h"
+#include "visibility_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ struct WeighTest : testing::Test {
     const std::uint64_t behind = tile.key(x, y), in_front = tile.key(1, 1), partial = tile.key(0, 0);
 
     // A lens point that sees nothing at the pixel; the partial sample is elsewhere.
-    Seen nothing() const {
+    Visibility nothing() const {
         const auto i = std::uint32_t(partial);
         const BlockedSamples &samples = tile.blocked.samples;
-        Seen seen;
+        Visibility seen;
         seen.columns.fill({0, 64});
         seen.empty.fill(~std::uint64_t{});
         seen.front.resize(tile_cells::count);
@@ -38,14 +38,14 @@ struct WeighTest : testing::Test {
         return seen;
     }
     // ... with an opaque sample at the pixel.
-    Seen opaque(std::uint64_t key) const {
-        Seen seen = nothing();
+    Visibility opaque(std::uint64_t key) const {
+        Visibility seen = nothing();
         seen.front[at(x, y)] = key;
         seen.empty[y] ^= std::uint64_t{1} << x;
         return seen;
     }
     // The same behind the partial sample.
-    static Seen covered(Seen seen) {
+    static Visibility covered(Visibility seen) {
         seen.partial_cells = {std::int32_t(at(x, y))};
         return seen;
     }
@@ -54,11 +54,12 @@ struct WeighTest : testing::Test {
     };
     // The mean of channel Y over lens points with their visible samples.
     template <typename Light>
-    Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const LensLooks &looks = {}) const {
+    Mean mean(const std::vector<std::pair<LensSample, Visibility>> &points,
+              const LensLooks &looks = {}) const {
         const GatherScene scene = tile.scene(looks);
-        Weigh<Light> weigh(scene, points.front().second);
-        for (const auto &[point, seen] : points) weigh.add(seen, point);
-        const TilePicture picture = weigh.picture();
+        Accumulator<Light> sums(scene, points.front().second);
+        for (const auto &[point, seen] : points) sums.add(seen, point);
+        const TilePicture picture = sums.picture();
         EXPECT_EQ(picture.is_known(pixel), picture.known[pixel] > 0);
         return {picture.value(pixel, 0), picture.known[pixel]};
     }
@@ -67,30 +68,31 @@ struct WeighTest : testing::Test {
 constexpr LensSample point{0, 0, 0, 0, .5f}, heavy{0, 0, 0, 0, 1.5f};
 
 TEST_F(WeighTest, AllSeeOneSample) {
-    const Mean even = mean<EvenLight>({{point, opaque(behind)}, {heavy, opaque(behind)}});
+    const Mean even = mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(behind)}});
     EXPECT_FLOAT_EQ(even.value, 2);
     EXPECT_FLOAT_EQ(even.known, 2);
 }
 
 TEST_F(WeighTest, EachCountsByItsWeight) {
-    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value,
+    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value,
                     (2 + 3 * 8) / 4.f);
 }
 
 TEST_F(WeighTest, WhatIsUnknownDoesNotCount) {
-    const Mean half = mean<EvenLight>({{point, opaque(behind)}, {heavy, nothing()}});
+    const Mean half = mean<UniformWeights>({{point, opaque(behind)}, {heavy, nothing()}});
     EXPECT_FLOAT_EQ(half.value, 2);
     EXPECT_FLOAT_EQ(half.known, .5f);
-    EXPECT_EQ(mean<EvenLight>({{point, nothing()}}).known, 0);
+    EXPECT_EQ(mean<UniformWeights>({{point, nothing()}}).known, 0);
 }
 
 TEST_F(WeighTest, APartialSampleLetsTheRestThrough) {
-    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
-    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, covered(opaque(in_front))}}).value, 8) << "it is behind that";
+    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
+    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(in_front))}}).value, 8)
+        << "it is behind that";
 }
 
 TEST_F(WeighTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
-    const Mean alone = mean<EvenLight>({{point, covered(nothing())}});
+    const Mean alone = mean<UniformWeights>({{point, covered(nothing())}});
     EXPECT_FLOAT_EQ(alone.value, 4);
     EXPECT_FLOAT_EQ(alone.known, .25f * .5f);
 }
@@ -98,10 +100,11 @@ TEST_F(WeighTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
 TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
     const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, {9, .5f, 9}, {9, 1.5f, 9}},
         rim{0, 0, 0, 0, 1, {1, 1, 1}, {9, 1.5f, 9}, {9, .5f, 9}};
-    const float by_side = mean<ChannelLight<2>>({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}).value;
+    const float by_side =
+        mean<ChannelWeights<2>>({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}).value;
     EXPECT_FLOAT_EQ(by_side, (3 * 1.5f * 8 + 1.5f * 2) / (3 * 1.5f + 1.5f));
     const float one_side =
-        mean<ChannelLight<1>>({{green_rim, opaque(behind)}, {rim, covered(opaque(behind))}}).value;
+        mean<ChannelWeights<1>>({{green_rim, opaque(behind)}, {rim, covered(opaque(behind))}}).value;
     EXPECT_FLOAT_EQ(one_side, (1.5f * 2 + 1.5f * (.25f * 4 + .75f * 2)) / 3);
 }
 
@@ -109,14 +112,14 @@ TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
 // the point's weight; with darkening, the light times that weight.
 TEST_F(WeighTest, ACatsEyeLeavesOutOrDarkens) {
     const LensSample bright{0, 0, 0, 0, .5f, {1, 3, 1}};
-    Seen beside = opaque(in_front);
+    Visibility beside = opaque(in_front);
     beside.columns[y] = {x + 1, 64};
     beside.empty[y] = 0;
     for (const bool darkens : {false, true}) {
         LensLooks looks;
         looks.cat_eye = 1;
         looks.cat_eye_darkening = darkens;
-        const Mean cut = mean<ChannelLight<1>>({{bright, opaque(behind)}, {point, beside}}, looks);
+        const Mean cut = mean<ChannelWeights<1>>({{bright, opaque(behind)}, {point, beside}}, looks);
         EXPECT_FLOAT_EQ(cut.value, darkens ? 6 : 2);
         EXPECT_FLOAT_EQ(cut.known, darkens ? .5f : 1.5f);
     }
