@@ -51,7 +51,7 @@ struct Ldi {
     // occlusion. Negative if the rays would meet behind the camera, never 0. Empty: equal to z.
     std::vector<float> image_z;
     // How far 1 / z falls, in 1 / scene units, through the solid behind a sample of half coverage or more: a depth
-    // range that no view saw through (warp/continue_surfaces.h). 0 if unknown; empty: unknown everywhere.
+    // range that no view saw through (warp/extend_surfaces.h). 0 if unknown; empty: unknown everywhere.
     std::vector<float> solid;
     std::vector<std::vector<float>> values; // [channel][sample]
 

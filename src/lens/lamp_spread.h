@@ -53,7 +53,7 @@ LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::
 // - whether light beyond the frame would show (dof/border_reach.h): nearly all samples of the border;
 // - the lamps of a view (warp/lamps/lamp_light.h): the pixels of the lamp's block; its brightest pixel must stand
 // out by twice the factor;
-// - light between strands (warp/mixed/wisps.h): the strands.
+// - light between strands (warp/matting/thin_structures.h): the strands.
 struct LampTuning {
     // A lamp is brighter than its surroundings by this factor.
     static constexpr float stands_out = 4;

@@ -73,9 +73,9 @@ struct Part {
     double share;
 };
 
-class Filling {
+class OpacityRepair {
 public:
-    Filling(const ReprojectedViews &views, double tolerance, Ldi &ldi)
+    OpacityRepair(const ReprojectedViews &views, double tolerance, Ldi &ldi)
         : views_(views), tolerance_(tolerance), ldi_(ldi), alpha_(ldi.alpha()),
           mattes_(find_mattes(ldi.channels)) {}
 
@@ -148,7 +148,7 @@ private:
 
 void keep_opaque(const ReprojectedViews &views, double tolerance, Ldi &ldi) {
     if (ldi.alpha() == npos) return;
-    Filling filling(views, tolerance, ldi);
+    OpacityRepair filling(views, tolerance, ldi);
     parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end; ++pixel) filling.fill_pixel(pixel);
     });

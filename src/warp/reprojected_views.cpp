@@ -83,8 +83,8 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
 }
 
 // Settles the lamps of flat views. Deep views need none of this, because their parts mix nothing.
-std::vector<CrossedLamps> repair_lamps(std::vector<ViewSamples> &views,
-                                       const std::vector<ViewMapping> &mappings, double tolerance) {
+std::vector<PartlyHiddenLamps> repair_lamps(std::vector<ViewSamples> &views,
+                                            const std::vector<ViewMapping> &mappings, double tolerance) {
     std::vector<std::size_t> flat;
     std::vector<ViewSamples> samples;
     std::vector<ViewMapping> mappings_of_flat;
@@ -94,7 +94,7 @@ std::vector<CrossedLamps> repair_lamps(std::vector<ViewSamples> &views,
             samples.push_back(std::move(views[v]));
             mappings_of_flat.push_back(mappings[v]);
         }
-    std::vector<CrossedLamps> found, crossed(views.size());
+    std::vector<PartlyHiddenLamps> found, crossed(views.size());
     if (flat.size() > 1) found = repair_lamp_depths(samples, mappings_of_flat, tolerance);
     for (std::size_t n = 0; n < flat.size(); ++n) {
         views[flat[n]] = std::move(samples[n]);
@@ -131,17 +131,17 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
         samples.back().keep_channels(channels);
     }
     const bool separate = jump > 0 && scale > 0;
-    std::vector<CrossedLamps> crossed(samples.size());
+    std::vector<PartlyHiddenLamps> crossed(samples.size());
     if (separate) crossed = repair_lamps(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(samples.size());
     // One after the other, each by all threads, which takes less memory.
     for (std::size_t v = 0; v < samples.size(); ++v) {
         some_are_deep_ = some_are_deep_ || samples[v].deep();
-        const OtherViews others(samples, mappings, v, scale);
+        const BackgroundFromViews others(samples, mappings, v, scale);
         if (separate && !samples[v].deep())
             separate_silhouettes(samples[v], scale, jump, crossed[v], samples.size() > 1 ? &others : nullptr);
     }
-    // Only now, because OtherViews reads all views.
+    // Only now, because BackgroundFromViews reads all views.
     for (std::size_t v = 0; v < samples.size(); ++v)
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     if (!some_are_deep_) return;

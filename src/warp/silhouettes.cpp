@@ -4,8 +4,8 @@
 #include "base/parallel.h"
 #include "deep/mixed_pixels.h"
 #include "lens/thin_lens.h"
-#include "warp/mixed/matte_shares.h"
-#include "warp/mixed/wisps.h"
+#include "warp/matting/matte_shares.h"
+#include "warp/matting/thin_structures.h"
 #include "warp/tuning.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Estimate {
 class Separation {
 public:
     Separation(const ViewSamples &view, double scale, double jump, std::span<const std::size_t> crossed_lamps,
-               const OtherViews *others);
+               const BackgroundFromViews *others);
     bool may_be_mixed(std::size_t pixel) const;
     void emit_pixel(std::size_t pixel, Ldi &out) const; // appends a pixel that may be mixed, if it is mixed
 
@@ -74,13 +74,13 @@ private:
     SamplesAround samples_;
     double scale_, jump_;
     std::span<const std::size_t> crossed_lamps_; // pixels, ascending
-    const OtherViews *others_;                   // may be null
+    const BackgroundFromViews *others_;          // may be null
     std::vector<Matte> mattes_;
     std::vector<unsigned char> sides_; // of each pixel
 };
 
 Separation::Separation(const ViewSamples &view, double scale, double jump,
-                       std::span<const std::size_t> crossed_lamps, const OtherViews *others)
+                       std::span<const std::size_t> crossed_lamps, const BackgroundFromViews *others)
     : view_(view), samples_(view, scale), scale_(scale), jump_(jump), crossed_lamps_(crossed_lamps),
       others_(others), mattes_(find_mattes(view.channels)) {
     sides_.assign(view.windows.pixels(), inside);
@@ -277,7 +277,7 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
 } // namespace
 
 void separate_silhouettes(ViewSamples &view, double scale, double jump,
-                          std::span<const std::size_t> crossed_lamps, const OtherViews *others) {
+                          std::span<const std::size_t> crossed_lamps, const BackgroundFromViews *others) {
     const Separation separation(view, scale, jump, crossed_lamps, others);
     view.replace([&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
                  [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });

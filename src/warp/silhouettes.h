@@ -12,7 +12,7 @@
 #pragma once
 
 #include "deep/view_samples.h"
-#include "warp/mixed/wisps.h"
+#include "warp/matting/thin_structures.h"
 
 #include <cstddef>
 #include <span>
@@ -25,6 +25,6 @@ namespace sparselens {
 // order, that keep their light (lamps/lamp_depths.h). `others`: the views that may show what is behind strands.
 void separate_silhouettes(ViewSamples &view, double scale, double jump,
                           std::span<const std::size_t> crossed_lamps = {},
-                          const OtherViews *others = nullptr);
+                          const BackgroundFromViews *others = nullptr);
 
 } // namespace sparselens

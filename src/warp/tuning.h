@@ -11,10 +11,10 @@ struct WarpTuning {
     // Largest number of pixels that an LDI grows beyond the centre view on a side.
     static constexpr int most_overscan = 1024;
 
-    // Pixels around the one of a view that must see no farther (continue_surfaces.h).
+    // Pixels around the one of a view that must see no farther (extend_surfaces.h).
     static constexpr int sight_margin = 1;
 
-    // Solids (continue_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2, pinecone and
+    // Solids (extend_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2, pinecone and
     // macro have .7 and .1 dB less inside their masks.
     static constexpr double solid_px = 4;
     // Pixels of disparity: a view counts as seeing something nearer if it is nearer by at least this.
@@ -38,7 +38,7 @@ struct WarpTuning {
     // around.
     static constexpr float estimate_weight = 0.0625f;
 
-    // Strands (mixed/wisps.h). Radius of the pixels that tell whether one is among strands.
+    // Strands (matting/thin_structures.h). Radius of the pixels that tell whether one is among strands.
     static constexpr int strand_reach = 2;
     // Jumps in depth among 20 pairs of pixels. Strands that cover half give about 10.
     static constexpr int strand_jumps = 5;

@@ -5,8 +5,8 @@
 #include "deep/build.h"
 #include "lens/thin_lens.h"
 #include "view/resolve_lens.h"
-#include "warp/continue_surfaces.h"
 #include "warp/coverage.h"
+#include "warp/extend_surfaces.h"
 #include "warp/images/image_depths.h"
 #include "warp/lamps/lamp_light.h"
 #include "warp/photo_consistency.h"
@@ -184,7 +184,7 @@ Ldi Warper::run(Progress &progress) {
     if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     views_.forget_colours();
-    if (averages() && options_.continue_surfaces) continue_surfaces(placed(), scale_, ldi);
+    if (averages() && options_.extend_surfaces) extend_surfaces(placed(), scale_, ldi);
     find_solids(placed(), scale_, ldi);
     return ldi;
 }

@@ -1,7 +1,7 @@
 // From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
 // A sample is a pixel of some view, or an average of pixels of one surface. Samples seen past it may fill it up
-// (coverage.h), and surfaces continue a little behind nearer ones (continue_surfaces.h). Two samples belong to the
+// (coverage.h), and surfaces continue a little behind nearer ones (extend_surfaces.h). Two samples belong to the
 // same surface if their disparities R F / z differ by less than `surface_px` pixels.
 #pragma once
 
@@ -37,8 +37,8 @@ struct WarpOptions {
     bool test_photo_consistency = true;
     // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/image_depths.h).
     bool find_images = true;
-    // With Merge::average: surfaces continue behind nearer ones (continue_surfaces.h).
-    bool continue_surfaces = true;
+    // With Merge::average: surfaces continue behind nearer ones (extend_surfaces.h).
+    bool extend_surfaces = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
     int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
     WarpDevice *device = nullptr; // if given, works on the rows that it can

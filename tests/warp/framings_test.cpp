@@ -28,7 +28,7 @@ const Windows picture = windows_of_size(width, height);
 
 Ldi warped(const std::vector<View> &views, Merge merge) {
     Progress silent;
-    return warp(views, {.focal_px = focal_px, .radius = radius, .merge = merge, .continue_surfaces = false},
+    return warp(views, {.focal_px = focal_px, .radius = radius, .merge = merge, .extend_surfaces = false},
                 silent);
 }
 

@@ -15,7 +15,7 @@ inline constexpr float inf = std::numeric_limits<float>::infinity();
 inline constexpr double focal_px = 100, radius = 0.06;
 // Without silhouettes and what continues behind others, which have their own tests.
 inline const WarpOptions averaging{
-    .focal_px = focal_px, .radius = radius, .split_silhouettes = false, .continue_surfaces = false};
+    .focal_px = focal_px, .radius = radius, .split_silhouettes = false, .extend_surfaces = false};
 inline const WarpOptions keeping{.focal_px = focal_px, .radius = radius, .merge = Merge::keep};
 
 Ldi warped(const std::vector<View> &views, const WarpOptions &options = averaging);

@@ -55,7 +55,7 @@ TEST(ExtraVision, AbsentFromWarpedViewsPresentInStrata) {
     Progress silent;
     for (const Merge merge : {Merge::average, Merge::keep}) {
         const Ldi ldi =
-            warp(views, {.focal_px = 96, .radius = 0.06, .merge = merge, .continue_surfaces = false}, silent);
+            warp(views, {.focal_px = 96, .radius = 0.06, .merge = merge, .extend_surfaces = false}, silent);
         EXPECT_EQ(samples_no_view_saw(ldi, views, settings.lens), 0u);
         EXPECT_GT(ldi.samples(), settings.windows.pixels());
     }

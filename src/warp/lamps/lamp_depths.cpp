@@ -231,8 +231,8 @@ void LampsOfView::repair_by_others(const ViewMapping &mapping, std::span<const K
 
 } // namespace
 
-std::vector<CrossedLamps> repair_lamp_depths(std::span<ViewSamples> views,
-                                             std::span<const ViewMapping> mappings, double tolerance) {
+std::vector<PartlyHiddenLamps> repair_lamp_depths(std::span<ViewSamples> views,
+                                                  std::span<const ViewMapping> mappings, double tolerance) {
     std::vector<std::optional<LampsOfView>> found(views.size());
     parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
     std::vector<KnownLamp> known; // in the centre view
@@ -248,7 +248,7 @@ std::vector<CrossedLamps> repair_lamp_depths(std::span<ViewSamples> views,
         found[v]->repair_by_neighbours();
         found[v]->repair_by_others(mappings[v], known);
     });
-    std::vector<CrossedLamps> crossed;
+    std::vector<PartlyHiddenLamps> crossed;
     std::vector<std::vector<LampBeforeWall>> unknown;
     for (const auto &view : found) {
         crossed.push_back(view->crossed());

@@ -20,12 +20,12 @@
 namespace sparselens {
 
 // The pixels of the lamps of a view that strands or bars cross, in ascending order.
-using CrossedLamps = std::vector<std::size_t>;
+using PartlyHiddenLamps = std::vector<std::size_t>;
 
 // Views must have at most one sample per pixel. mappings[v] tells where the centre view shows what views[v] shows.
 // Depths whose inverses differ by less than `tolerance`, > 0, are one surface. Returns the crossed lamps of each view.
 // The result does not depend on the order of the views.
-std::vector<CrossedLamps> repair_lamp_depths(std::span<ViewSamples> views,
-                                             std::span<const ViewMapping> mappings, double tolerance);
+std::vector<PartlyHiddenLamps> repair_lamp_depths(std::span<ViewSamples> views,
+                                                  std::span<const ViewMapping> mappings, double tolerance);
 
 } // namespace sparselens

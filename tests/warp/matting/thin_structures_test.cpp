@@ -1,6 +1,6 @@
 #include "deep/flatten.h"
 #include "support/views.h"
-#include "warp/mixed/wisps.h"
+#include "warp/matting/thin_structures.h"
 #include "warp/silhouettes.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ bool among(const View &view, int x, int y) {
     return among_strands(SamplesAround(samples, scale), x, y);
 }
 
-TEST(Wisps, StrandsAreKnownByDepthsThatJump) {
+TEST(ThinStructures, StrandsAreKnownByDepthsThatJump) {
     const Strands hair(0.8f);
     int found = 0;
     for (int y = 4; y < size - 4; ++y)
@@ -69,9 +69,9 @@ TEST(Wisps, StrandsAreKnownByDepthsThatJump) {
     }
 }
 
-// Whatever the random depth of a pixel, the strands get their share of it; without wisps, one of the two depths gets
+// Whatever the random depth of a pixel, the strands get their share of it; without thin_structures, one of the two depths gets
 // everything.
-TEST(Wisps, StrandsCoverTheirShare) {
+TEST(ThinStructures, StrandsCoverTheirShare) {
     const Strands hair(0.8f);
     const Ldi ldi = hair.separated();
     double error = 0, whole_error = 0;
@@ -128,14 +128,14 @@ struct BeforeAWall {
     }
     Ldi separated(bool by_both) const {
         ViewSamples own(views[0], views[0].image.channels);
-        const OtherViews others(samples, mappings, 0, scale);
+        const BackgroundFromViews others(samples, mappings, 0, scale);
         separate_silhouettes(own, scale, 0.5, {}, by_both ? &others : nullptr);
         return own.as_ldi();
     }
 };
 
 // The pixels around do not tell what is behind one of them; a view that shows the wall does.
-TEST(Wisps, OtherViewsTellWhatIsBehind) {
+TEST(ThinStructures, OtherViewsTellWhatIsBehind) {
     const BeforeAWall scene(true);
     const auto error_of = [&](bool by_both) {
         const Ldi ldi = scene.separated(by_both);
@@ -154,7 +154,7 @@ TEST(Wisps, OtherViewsTellWhatIsBehind) {
     EXPECT_GT(alone, 2 * together);
 }
 
-TEST(Wisps, BothSurfacesOfAPixelAreLight) {
+TEST(ThinStructures, BothSurfacesOfAPixelAreLight) {
     for (const bool blue : {false, true}) {
         const BeforeAWall scene(blue);
         const Ldi ldi = scene.separated(true);
@@ -166,7 +166,7 @@ TEST(Wisps, BothSurfacesOfAPixelAreLight) {
 }
 
 // A lamp 400 times as bright as the strands shines at its own depth, and none of its light is lost.
-TEST(Wisps, LightBetweenStrandsIsTheLamps) {
+TEST(ThinStructures, LightBetweenStrandsIsTheLamps) {
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const Strands hair(40, seed);
         const Ldi ldi = hair.separated();

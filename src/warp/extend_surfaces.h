@@ -34,7 +34,7 @@ namespace sparselens {
 // weighted by 1 / n. Small lamps, mirrors, glass and volumes do not continue.
 
 // Adds the samples to an LDI that is made of `views`, the centre view first. `scale`: R F, above 0.
-void continue_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi);
+void extend_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi);
 
 // Finds which opaque surfaces count as solid for some distance behind their samples (Ldi::solid), so that a lens point
 // between the positions of the views does not look through a gap that no view saw open.

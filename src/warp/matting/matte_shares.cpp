@@ -1,4 +1,4 @@
-#include "warp/mixed/matte_shares.h"
+#include "warp/matting/matte_shares.h"
 
 #include <algorithm>
 #include <bit>

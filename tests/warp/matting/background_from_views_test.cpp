@@ -1,5 +1,5 @@
 #include "support/views.h"
-#include "warp/mixed/wisps.h"
+#include "warp/matting/thin_structures.h"
 
 #include <gtest/gtest.h>
 
@@ -32,11 +32,11 @@ struct Scene {
         }
     }
     std::optional<Imath::V3d> behind(std::size_t own, int x, double depth = 2) const {
-        return OtherViews(samples, mappings, own, scale).colour_behind({x, 4}, depth, 1);
+        return BackgroundFromViews(samples, mappings, own, scale).colour_behind({x, 4}, depth, 1);
     }
 };
 
-TEST(OtherViews, ShowWhatACardHides) {
+TEST(BackgroundFromViews, ShowWhatACardHides) {
     const Scene scene({0, 0.2});
     const auto colour = scene.behind(0, 17); // the card's column 17; the wall's disparity is 2
     ASSERT_TRUE(colour);
@@ -47,14 +47,14 @@ TEST(OtherViews, ShowWhatACardHides) {
     EXPECT_NEAR(back->x, 9.5, 1e-5);
 }
 
-TEST(OtherViews, AreMeans) {
+TEST(BackgroundFromViews, AreMeans) {
     const Scene one({0, 0.2}), two({0, 0.2, 0.25});
     ASSERT_TRUE(two.behind(0, 17));
     EXPECT_NEAR(two.behind(0, 17)->x, (17.5 + 17.5) / 2, 0.5); // the third view is half a pixel off
     EXPECT_NE(two.behind(0, 17)->x, one.behind(0, 17)->x);
 }
 
-TEST(OtherViews, SayNothingWhereTheSurfaceIsMixedHiddenOrOutside) {
+TEST(BackgroundFromViews, SayNothingWhereTheSurfaceIsMixedHiddenOrOutside) {
     const Scene scene({0, 0.2});
     EXPECT_FALSE(Scene({0}).behind(0, 17));            // no other view
     EXPECT_FALSE(scene.behind(0, 9));                  // the card of the other view is there
@@ -87,13 +87,13 @@ struct BrightEdge {
     }
     // The light in the last pixel of the card.
     std::optional<Mixture> light(bool by_both) const {
-        const OtherViews others(samples, mappings, 0, scale);
+        const BackgroundFromViews others(samples, mappings, 0, scale);
         return light_between_strands(SamplesAround(samples[0], scale), 19, 4, 0.5, 1,
                                      by_both ? &others : nullptr);
     }
 };
 
-TEST(OtherViews, TellALitEdgeFromALampBehindIt) {
+TEST(BackgroundFromViews, TellALitEdgeFromALampBehindIt) {
     EXPECT_FALSE(BrightEdge(false).light(true));
     for (const auto &light : {BrightEdge(true).light(true), BrightEdge(false).light(false)}) {
         ASSERT_TRUE(light);

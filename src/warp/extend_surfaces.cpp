@@ -1,4 +1,4 @@
-#include "warp/continue_surfaces.h"
+#include "warp/extend_surfaces.h"
 
 #include "base/light.h"
 #include "base/parallel.h"
@@ -62,9 +62,9 @@ std::vector<bool> samples_of_lamps(const Ldi &ldi) {
     return marks;
 }
 
-class Continuing {
+class SurfaceExtension {
 public:
-    Continuing(const Ldi &ldi, const Imath::Box2i &frame, double scale)
+    SurfaceExtension(const Ldi &ldi, const Imath::Box2i &frame, double scale)
         : ldi_(ldi), frame_(frame), scale_(scale), alpha_(ldi.alpha()), lamps_(samples_of_lamps(ldi)) {}
 
     // The runs of a row of pixels that continue for a pixel or more. `may_be(hidden)`: whether no view contradicts.
@@ -147,7 +147,7 @@ private:
 
 // The runs that no view contradicts, of each row of pixels.
 std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, double scale, const Ldi &ldi,
-                                        const Imath::Box2i &frame, const Continuing &continuing) {
+                                        const Imath::Box2i &frame, const SurfaceExtension &continuing) {
     std::vector<std::vector<Run>> rows(std::size_t(frame.max.y - frame.min.y + 1));
     for (const PlacedView &view : views) {
         const FarthestDepth sight = farthest_around(*view.samples, farthest_in(*view.samples));
@@ -209,9 +209,9 @@ void add(std::vector<Added> all, double scale, Ldi &ldi) {
 
 } // namespace
 
-void continue_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi) {
+void extend_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi) {
     const Imath::Box2i frame = views[0].samples->windows.data;
-    const Continuing continuing(ldi, frame, scale);
+    const SurfaceExtension continuing(ldi, frame, scale);
     std::vector<Hidden> hidden;
     for (const std::vector<Run> &row : find_runs(views, scale, ldi, frame, continuing))
         for (const Run &run : row)

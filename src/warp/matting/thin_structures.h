@@ -30,13 +30,13 @@
 namespace sparselens {
 
 // The colour that other views show of a surface that something nearer hides or mixes in one view.
-class OtherViews {
+class BackgroundFromViews {
 public:
     // `views` and `mappings` are those of all views, which have the same channels; they must outlive this. `own` is the
     // view that mixes the surfaces. `scale` is R F, pixels times scene units. It reads only the samples that the views had
     // at first: see ViewSamples::replace().
-    OtherViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings, std::size_t own,
-               double scale);
+    BackgroundFromViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings,
+                        std::size_t own, double scale);
 
     // Returns the colour of the surface at that disparity, where the ray of the own view's pixel (from the
     // window's corner) meets it: the mean over the other flat views that show the surface there, opaque, and nothing
@@ -129,9 +129,10 @@ bool among_strands(const SamplesAround &samples, int x, int y);
 // The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Pixels of disparity: `jump`
 // parts the lamp from what is behind it, `apart` the strands from both. `others` may be null.
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
-                                             double apart, const OtherViews *others);
+                                             double apart, const BackgroundFromViews *others);
 
 // The share of strands in a pixel among them, if the pixels around or other views explain its colour.
-std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y, const OtherViews *others);
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y,
+                                      const BackgroundFromViews *others);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-#include "warp/mixed/wisps.h"
+#include "warp/matting/thin_structures.h"
 
 #include "base/grid.h"
 #include "base/light.h"
@@ -129,7 +129,7 @@ std::vector<Ground> grounds_around(const SamplesAround &samples, int x, int y, i
 }
 
 // The same surfaces, each once, where other views show what the pixel hides of them.
-std::vector<Ground> grounds_elsewhere(const OtherViews &others, int x, int y,
+std::vector<Ground> grounds_elsewhere(const BackgroundFromViews &others, int x, int y,
                                       std::span<const Ground> around) {
     std::vector<Ground> grounds;
     std::vector<double> asked; // depths
@@ -183,7 +183,7 @@ bool among_strands(const SamplesAround &samples, int x, int y) {
 }
 
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
-                                             double apart, const OtherViews *others) {
+                                             double apart, const BackgroundFromViews *others) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
     const bool is_strand = own_depth > nearest - apart;
@@ -207,7 +207,8 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     return Mixture{near_depth, lamp_depth, share < least_mixed_share ? 0 : share, {}, strand};
 }
 
-std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y, const OtherViews *others) {
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y,
+                                      const BackgroundFromViews *others) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
     const double near_depth = own_depth > nearest - WarpTuning::strand_apart_px ? own_depth : nearest;
@@ -223,12 +224,12 @@ std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y
     return mixture_with(around, colour, strands, near_depth);
 }
 
-OtherViews::OtherViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings,
-                       std::size_t own, double scale)
+BackgroundFromViews::BackgroundFromViews(std::span<const ViewSamples> views,
+                                         std::span<const ViewMapping> mappings, std::size_t own, double scale)
     : views_(views), mappings_(mappings), own_(own), scale_(scale), rgb_(find_rgb(views[own].channels)),
       alpha_(views[own].alpha()) {}
 
-Imath::V3d OtherViews::colour_of(const ViewSamples &samples, std::size_t pixel) const {
+Imath::V3d BackgroundFromViews::colour_of(const ViewSamples &samples, std::size_t pixel) const {
     const auto value = [&](std::size_t k) { return double(samples.value(rgb_[k], pixel)); };
     return {value(0), value(1), value(2)};
 }
@@ -236,7 +237,7 @@ Imath::V3d OtherViews::colour_of(const ViewSamples &samples, std::size_t pixel) 
 // Calls visit(view, pixel) for the pixels of the other flat views, not on their border, that look at that depth along
 // the ray of the own view's pixel.
 template <typename Visit>
-void OtherViews::for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const {
+void BackgroundFromViews::for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const {
     const Imath::V2i corner = views_[own_].windows.data.min;
     const Imath::V2d middle(corner.x + pixel.x + 0.5, corner.y + pixel.y + 0.5);
     const Imath::V2d in_centre =
@@ -251,7 +252,7 @@ void OtherViews::for_each_other(const Imath::V2i &pixel, double depth, const Vis
     }
 }
 
-OtherViews::Around OtherViews::around(const ViewSamples &samples, std::size_t pixel) const {
+BackgroundFromViews::Around BackgroundFromViews::around(const ViewSamples &samples, std::size_t pixel) const {
     const std::size_t row = std::size_t(samples.windows.width());
     Around all;
     for (const std::size_t line : {pixel - row, pixel, pixel + row})
@@ -263,7 +264,8 @@ OtherViews::Around OtherViews::around(const ViewSamples &samples, std::size_t pi
     return all;
 }
 
-std::optional<double> OtherViews::brightest_at(const Imath::V2i &pixel, double depth, double nearest) const {
+std::optional<double> BackgroundFromViews::brightest_at(const Imath::V2i &pixel, double depth,
+                                                        double nearest) const {
     std::optional<double> brightest;
     for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
         const Around all = around(samples, seen);
@@ -272,8 +274,8 @@ std::optional<double> OtherViews::brightest_at(const Imath::V2i &pixel, double d
     return brightest;
 }
 
-std::optional<Imath::V3d> OtherViews::colour_behind(const Imath::V2i &pixel, double depth,
-                                                    double apart) const {
+std::optional<Imath::V3d> BackgroundFromViews::colour_behind(const Imath::V2i &pixel, double depth,
+                                                             double apart) const {
     Imath::V3d sum(0, 0, 0);
     int count = 0;
     for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
