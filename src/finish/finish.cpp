@@ -1,7 +1,7 @@
 #include "finish/finish.h"
 
 #include "base/parallel.h"
-#include "finish/trust.h"
+#include "finish/cross_validation.h"
 #include "finish/tuning.h"
 #include "finish/window_means.h"
 

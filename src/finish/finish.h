@@ -1,6 +1,6 @@
 // Combines a gathered picture and two independent renders through the same lens into a picture that is nearer to the
 // truth than either. The gathered picture has no noise and is wrong in a few places; the rays are right on average but
-// noisy. Candidates made of both are blended in as far as the other render confirms them (trust.h).
+// noisy. Candidates made of both are blended in as far as the other render confirms them (cross_validation.h).
 //
 // The candidates, in this order: those of other programs or other views (given), regressions of the rays on the
 // gathered picture in windows of several sizes, the rays themselves, and means over pixels that look

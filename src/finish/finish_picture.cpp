@@ -23,7 +23,7 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a re
 // Fourth powers of larger values overflow, so that brighter pixels stay as gathered.
 constexpr float largest = 1e8f;
 
-bool is_told(float value) { return std::abs(value) <= largest; } // false for NaN
+bool is_usable(float value) { return std::abs(value) <= largest; } // false for NaN
 
 bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
 
@@ -78,8 +78,8 @@ void repair(Colours &gathered, std::vector<Halves *> halves) {
             for (std::size_t i = begin; i < end; ++i) {
                 float &g = gathered[c][i];
                 if (std::isfinite(g)) g = std::clamp(g, -largest, largest);
-                if (!is_told(g)) g = (*halves[0])[0][c][i];
-                if (!is_told(g)) g = 0;
+                if (!is_usable(g)) g = (*halves[0])[0][c][i];
+                if (!is_usable(g)) g = 0;
             }
         });
     // A pixel is taken or left as a whole, so that its colours stay consistent.
@@ -88,7 +88,7 @@ void repair(Colours &gathered, std::vector<Halves *> halves) {
             for (Halves *pair : halves) {
                 bool whole = true;
                 for (const Colours &half : *pair)
-                    for (const Values &channel : half) whole &= is_told(channel[i]);
+                    for (const Values &channel : half) whole &= is_usable(channel[i]);
                 if (whole) continue;
                 for (Colours &half : *pair)
                     for (std::size_t c = 0; c < half.size(); ++c) half[c][i] = gathered[c][i];
@@ -211,11 +211,11 @@ void TwoHalves::add(const Render &render) {
         if (!has_[c]) continue;
         const Values values = over(render.image, from, windows_);
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (!is_told(values[i])) counts[i] = 0;
+            if (!is_usable(values[i])) counts[i] = 0;
     }
     double first = 0, second = 0; // the samples that there are
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (!(is_told(counts[i]) && counts[i] > 0)) counts[i] = 0;
+        if (!(is_usable(counts[i]) && counts[i] > 0)) counts[i] = 0;
         if (counts[i] > 0) first += double(counts_[0][i]), second += double(counts_[1][i]);
     }
     const std::size_t half = first <= second ? 0 : 1;
@@ -303,7 +303,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         for (std::size_t k = 0; k < channels.size(); ++k)
             std::ranges::transform(result.picture[k], picture.gathered.plane(channels[k]),
                                    picture.gathered.plane(channels[k]).begin(), [](float made, float was) {
-                                       return std::isfinite(was) && !is_told(was) ? was : made;
+                                       return std::isfinite(was) && !is_usable(was) ? was : made;
                                    });
     }
     finished.image = std::move(picture.gathered);

@@ -190,7 +190,7 @@ float Classes::place_of(float value) const {
 
 namespace {
 
-constexpr std::size_t classes = trust_classes;
+constexpr std::size_t classes = classes_per_measure;
 
 // Neighbouring classes of the table are alike, so each class borrows from them.
 void soften(ClassTable &table) {

@@ -1,7 +1,7 @@
 #include "finish/synthetic.h"
 
 #include "base/light.h"
-#include "finish/trust.h"
+#include "finish/cross_validation.h"
 #include "finish/window_means.h"
 
 #include <cmath>

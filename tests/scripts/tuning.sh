@@ -72,7 +72,7 @@ finish/finish_picture.cpp largest
 finish/finish.cpp least_square
 finish/window_means.cpp side
 finish/finish.cpp columns most_channels rows
-finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy
+finish/cross_validation.cpp grain largest_confirmation largest_energy_ratio least_energy
 finish/window_means.cpp lanes
 '
 

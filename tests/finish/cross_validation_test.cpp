@@ -1,6 +1,6 @@
 // The trust in candidates: a correct one, a noisy one, and independence of the number of threads.
+#include "finish/cross_validation.h"
 #include "finish/synthetic.h"
-#include "finish/trust.h"
 #include "finish/tuning.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "finish/trust.h"
+#include "finish/cross_validation.h"
 
 #include "base/parallel.h"
 #include "finish/window_means.h"
@@ -38,7 +38,7 @@ struct Measures {
     std::array<Values, 3> energy_ratio, confirmed;
 };
 
-std::size_t class_at(float place) { return std::min(std::size_t(place), trust_classes - 1); }
+std::size_t class_at(float place) { return std::min(std::size_t(place), classes_per_measure - 1); }
 
 // Logarithms of energy over noise. `noise`: the squared difference of both renders.
 std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid) {
@@ -79,12 +79,12 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid)
     return found;
 }
 
-// The share of each picture's change that is believed, for each cell.
+// The share of each picture's change that is accepted, for each cell.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells, Among among) {
     const Grid &grid = cells.grid();
     Measures measures{energy_ratios(evidence, evidence.noise, grid), confirmations(evidence, grid)};
-    Classes by_energy(trust_classes, -largest_energy_ratio, largest_energy_ratio),
-        by_confirmation(trust_classes, -largest_confirmation, largest_confirmation);
+    Classes by_energy(classes_per_measure, -largest_energy_ratio, largest_energy_ratio),
+        by_confirmation(classes_per_measure, -largest_confirmation, largest_confirmation);
     for (std::size_t i = 0; i < grid.size(); ++i)
         for (std::size_t k = 0; k < 2; ++k) {
             const double energy = double(evidence.energy[k][i]) * double(evidence.samples[1 - k][i]);
@@ -111,7 +111,7 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells, 
                 const std::array<double, 2> samples{evidence.samples[0][i], evidence.samples[1][i]};
                 const double all = samples[0] + samples[1], of_both = samples[0] * samples[1] / all;
                 for (std::size_t k = 0; k < 2; ++k) {
-                    const std::size_t cell = class_at(measures.energy_ratio[k][i]) * trust_classes +
+                    const std::size_t cell = class_at(measures.energy_ratio[k][i]) * classes_per_measure +
                                              class_at(measures.confirmed[k][i]);
                     const double count = pixels * samples[1 - k];
                     // The part of a change that is noise, as shown by the difference between the renders' changes,
