@@ -125,7 +125,7 @@ def stop(addon):
     files = sorted(os.listdir(scene.sparselens.folder))
     with Unchanged():
         views = [("center", (0, 0), None)]
-        rendering = addon.bit_by_bit.Rendering(scene, addon.renders.views_steps(
+        rendering = addon.chunked.Rendering(scene, addon.renders.views_steps(
             scene, [scene.frame_current], scene.sparselens.folder, lambda frame: views, addon.shots.eyes_of(scene),
             addon.manner.Manner(overscan=0, supersample=1), addon.manner.Count()))
         rendering.begin()
@@ -133,7 +133,7 @@ def stop(addon):
         check(scene.camera.name == "sparselens view", "the render has not begun")
         rendering.end()
     with Unchanged():
-        taking = addon.taking.Taking(scene, draft=True)
+        taking = addon.render_job.PictureJob(scene, draft=True)
         while taking.chain is None or taking.chain.process is None:
             check(not taking.tick(), "nothing is left to stop")
         process = taking.chain.process
@@ -148,12 +148,12 @@ def follow(addon, distance, width):
     scene = bpy.context.scene
     take()
     made = os.path.join(scene.sparselens.folder, "picture.exr")
-    follower = addon.taking.Follower(addon.taking.lens_state(scene))
+    follower = addon.render_job.Follower(addon.render_job.lens_state(scene))
     follower.tick(scene)
-    check(follower.taking is None, "an unchanged lens takes a picture")
+    check(follower.job is None, "an unchanged lens takes a picture")
     scene.camera.data.dof.focus_distance = float(distance)
     shown, began, drafted = [], time.time(), 0
-    while follower.taking or not shown:
+    while follower.job or not shown:
         check(time.time() - began < 100 and ": warning: " in (follower.message or ": warning: "),
               "following: %s" % follower.message)
         follower.tick(scene)
@@ -229,10 +229,10 @@ def main(folder, views, *actions):
         elif action == "scene":
             show_scene(actions.pop(0))
         elif action == "reload":  # into this file
-            addon.taking.start_following(addon.taking.lens_state(scene))
+            addon.render_job.start_following(addon.render_job.lens_state(scene))
             bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0))
             bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-            check(addon.taking.follower is None, "another file is followed")
+            check(addon.render_job.follower is None, "another file is followed")
         elif action == "save":
             bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0), copy=True)
         elif action == "compose":

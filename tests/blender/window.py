@@ -72,7 +72,7 @@ def stop_by_esc(addon, operator, folder, wait, end_of):
         for _ in range(wait):
             yield
         press_key("Esc")
-    yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "the render to stop")
+    yield from until(lambda: idle() and not addon.chunked.at_work, "the render to stop")
     yield
     what = "Esc during %s, %s" % (operator.idname(), "render %d" % end_of if end_of else "step %d" % wait)
     same(before, what)
@@ -145,7 +145,7 @@ def steps(addon, folder, screenshot):
     # Esc during Take Picture leaves whole files.
     press(bpy.ops.sparselens.take_picture)
     press_key("Esc")
-    yield from until(lambda: idle() and not addon.bit_by_bit.at_work, "Take Picture to stop")
+    yield from until(lambda: idle() and not addon.chunked.at_work, "Take Picture to stop")
     yield
     same(before, "Esc during Take Picture")
     check(not [name for name in os.listdir(folder) if "partial" in name], "Esc left %s" % os.listdir(folder))
@@ -157,7 +157,7 @@ def steps(addon, folder, screenshot):
     before = state(scene)
     press(bpy.ops.sparselens.take_picture)
     path = os.path.join(folder, "picture.exr")
-    yield from until(lambda: taken() and taken().filepath == path and addon.taking.follower, "the picture")
+    yield from until(lambda: taken() and taken().filepath == path and addon.render_job.follower, "the picture")
     same(before, "Take Picture")
     check(taken() in shown(), "no image editor shows the picture")
     undo()
@@ -183,19 +183,19 @@ def steps(addon, folder, screenshot):
 
     # Two renders through the lens finish the picture; then the lens is followed again.
     press(bpy.ops.sparselens.finish)
-    check(addon.taking.follower is None, "a lens is followed while it is rendered")
-    yield from until(lambda: idle() and os.path.getmtime(path) > first and addon.taking.follower, "the finished picture")
+    check(addon.render_job.follower is None, "a lens is followed while it is rendered")
+    yield from until(lambda: idle() and os.path.getmtime(path) > first and addon.render_job.follower, "the finished picture")
     same(before, "Finish")
     check(taken().filepath == path and taken() in shown(), "no image editor shows the finished picture")
     first = os.path.getmtime(path)
 
     # A field changes: a draft, and the picture.
-    paths, image_of = [], addon.taking.image_of
-    addon.taking.image_of = lambda scene, eye, path: paths.append(path) or image_of(scene, eye, path)
+    paths, image_of = [], addon.render_job.image_of
+    addon.render_job.image_of = lambda scene, eye, path: paths.append(path) or image_of(scene, eye, path)
     scene.camera.data.dof.focus_distance = 2
     yield from until(lambda: path in paths and os.path.getmtime(path) > first, "the picture of another focus")
     check([other == path for other in paths] == [False, True], "a draft and then the picture: %s" % paths)
-    check(": warning: " in (addon.taking.follower.message or ": warning: "), addon.taking.follower.message)
+    check(": warning: " in (addon.render_job.follower.message or ": warning: "), addon.render_job.follower.message)
 
     # Undo removes the image; the next change restores it.
     undo("focus")
@@ -209,7 +209,7 @@ def steps(addon, folder, screenshot):
 
     # A tool's message about a wrong look is shown in the panel.
     scene.sparselens.looks = "--spherical 7"
-    yield from until(lambda: "--spherical" in addon.taking.follower.message, "dof-gather's own words")
+    yield from until(lambda: "--spherical" in addon.render_job.follower.message, "dof-gather's own words")
     if screenshot:
         with bpy.context.temp_override(window=main_window(), area=area):
             bpy.ops.screen.screen_full_area()
@@ -234,7 +234,7 @@ def main(path, folder, screenshot=None):
             if addon.write_access.with_write_access(lambda: next(running, "done")) != "done":
                 return 0.1
             addon.write_access.with_write_access(addon.panel.unregister)
-            check(addon.taking.follower is None, "it follows without an add-on")
+            check(addon.render_job.follower is None, "it follows without an add-on")
             print("window.py: all is as it should be", flush=True)
             os._exit(0)
         except Exception:

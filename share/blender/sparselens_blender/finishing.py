@@ -13,7 +13,7 @@ from .looks import looks_of
 from .one_view import view_steps
 from .renders import folder_of, used_layers
 from .shots import eyes_of
-from .taking import chosen_folder, image_of, show
+from .render_job import chosen_folder, image_of, show
 
 
 class Finishing:

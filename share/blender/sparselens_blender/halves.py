@@ -4,7 +4,7 @@ dof-finish."""
 from contextlib import contextmanager
 
 from .exr import exr_box
-from .for_a_while import changed, only_layer, render_settings, still_camera
+from .temporary_settings import changed, only_layer, render_settings, still_camera
 from .kept import is_same_render, manner_attributes, windows
 from .shots import shot_of
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import bpy
 
 from .exr import exr_box, exr_int, exr_text, read_header
-from .for_a_while import samples_of
+from .temporary_settings import samples_of
 from .layers import folder_named
 from .shots import camera_attributes, view_placement
 

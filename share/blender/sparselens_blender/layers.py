@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from .for_a_while import changed
+from .temporary_settings import changed
 
 
 @dataclass(frozen=True)

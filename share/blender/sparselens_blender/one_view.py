@@ -7,7 +7,7 @@ import os
 from contextlib import ExitStack
 
 from .exr import depth_rows, with_attributes
-from .for_a_while import changed, only_layer, render_settings, still_camera
+from .temporary_settings import changed, only_layer, render_settings, still_camera
 from .shots import camera_attributes, view_placement
 
 LARGEST_PROBE = 512  # pixels

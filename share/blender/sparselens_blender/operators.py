@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 
 from . import nodes
-from .bit_by_bit import BitByBit, Rendering
+from .chunked import Chunked, Rendering
 from .chain import Once
 from .finishing import Finishing
 from .layers import names_of
@@ -15,8 +15,8 @@ from .renders import check_folder, folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of
 from .sub_pixels import AUTO, supersample_in
-from .taking import (
-    ERRORS, Taking, chosen_folder, editors, lens_state, start_following,
+from .render_job import (
+    ERRORS, PictureJob, chosen_folder, editors, lens_state, start_following,
     stop_following)
 from .views import counted, views_of_lens
 from .words import report
@@ -40,7 +40,7 @@ def views_in(settings):
         + (settings.slices > 0))
 
 
-class Renders(BitByBit):
+class Renders(Chunked):
     """An operator of steps: prepare(context) sets self.steps; for views also
     self.count, and self.most, the total number of views."""
 
@@ -150,7 +150,7 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
         self.report({"INFO"}, self.pictures.words())
 
 
-class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
+class SPARSELENS_OT_take_picture(Chunked, bpy.types.Operator):
     """Make the picture of the views, with the focus and f-stop that the camera has now"""
 
     bl_idname = "sparselens.take_picture"
@@ -159,8 +159,8 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
 
     def execute(self, context):
         try:
-            self.taking = Taking(context.scene, draft=False)
-            self.taking.wait()
+            self.job = PictureJob(context.scene, draft=False)
+            self.job.wait()
         except ERRORS as error:
             report(self, "ERROR", error)
             return {"CANCELLED"}
@@ -169,26 +169,26 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
 
     def begin(self, context):
         stop_following()
-        self.taking = Taking(context.scene, draft=True)
+        self.job = PictureJob(context.scene, draft=True)
         if not any(editors()):
             bpy.ops.render.view_show("INVOKE_DEFAULT")
 
     def tick(self, context):
-        done = self.taking.tick()
+        done = self.job.tick()
         context.workspace.status_text_set("sparselens: %s; Esc stops" % (
-            self.taking.chain.progress() or self.taking.words))
+            self.job.chain.progress() or self.job.words))
         return done
 
     def end(self, context):
-        self.taking.stop()
+        self.job.stop()
 
     def done(self, context):
         self.say_warnings()
         if context.scene.sparselens.live:
-            start_following(self.taking.state)
+            start_following(self.job.state)
 
     def say_warnings(self):
-        say_warnings(self, self.taking)
+        say_warnings(self, self.job)
 
 
 class SPARSELENS_OT_finish(Renders, bpy.types.Operator):

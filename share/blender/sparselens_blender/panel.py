@@ -6,8 +6,8 @@ import textwrap
 
 import bpy
 
-from . import looks, shutter, taking
-from .bit_by_bit import SPARSELENS_OT_note_keys
+from . import looks, render_job, shutter
+from .chunked import SPARSELENS_OT_note_keys
 from .operators import (
     SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
@@ -163,8 +163,8 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         layout.operator("sparselens.render_views")
         layout.prop(settings, "live")
         layout.operator("sparselens.take_picture")
-        if taking.follower:
-            say(layout, in_panel(taking.follower.message), context)
+        if render_job.follower:
+            say(layout, in_panel(render_job.follower.message), context)
         layout.prop(settings, "finish")
         layout.prop(settings, "finish_where_needed")
         layout.operator("sparselens.finish")
@@ -203,12 +203,12 @@ def register():
         bpy.utils.register_class(made)
     bpy.types.Scene.sparselens = bpy.props.PointerProperty(
         type=SPARSELENS_Settings)
-    bpy.app.handlers.load_pre.append(taking.stop_at_load)
+    bpy.app.handlers.load_pre.append(render_job.stop_at_load)
 
 
 def unregister():
-    bpy.app.handlers.load_pre.remove(taking.stop_at_load)
-    taking.stop_following()
+    bpy.app.handlers.load_pre.remove(render_job.stop_at_load)
+    render_job.stop_following()
     del bpy.types.Scene.sparselens
     for made in reversed(CLASSES):
         bpy.utils.unregister_class(made)

@@ -16,7 +16,7 @@ import bpy
 from .chain import Chain
 from .checks import check_scene
 from .exr import exr_int
-from .for_a_while import finer, only_layer, render_settings, still_camera
+from .temporary_settings import finer, only_layer, render_settings, still_camera
 from .halves import check_halves, halves_steps
 from .kept import (
     check_scene_of, denoises, is_kept, is_kept_volume, manner_attributes,

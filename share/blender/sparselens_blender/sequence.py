@@ -8,7 +8,7 @@ import bpy
 
 from . import pictures, tools
 from .chain import Chain, Once
-from .for_a_while import other_files, samples_of
+from .temporary_settings import other_files, samples_of
 from .halves import check_halves, check_looks, halves_steps
 from .looks import looks_of
 from .manner import Count

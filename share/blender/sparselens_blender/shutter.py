@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from .exr import exr_float, exr_int
-from .for_a_while import changed
+from .temporary_settings import changed
 from .shots import shot_of
 
 MOST = 64

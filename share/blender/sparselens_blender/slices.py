@@ -18,7 +18,7 @@ from mathutils import Matrix
 
 from .deep_exr import read_planes, write_deep
 from .exr import exr_text
-from .for_a_while import changed, render_settings, still_camera
+from .temporary_settings import changed, render_settings, still_camera
 from .one_view import aim
 from .shots import view_placement
 from .volumes import only_volumes, volume_depths

@@ -5,7 +5,7 @@ import os
 from operator import or_
 
 from .exr import depth_rows
-from .for_a_while import samples_of
+from .temporary_settings import samples_of
 from .kept import header_of, is_of_camera, supersample_of
 from .one_view import probe_steps
 from .shots import shot_of

@@ -3,7 +3,7 @@
 import bpy
 
 from . import tools, unpack
-from .taking import ERRORS, chosen_folder
+from .render_job import ERRORS, chosen_folder
 from .words import report
 
 

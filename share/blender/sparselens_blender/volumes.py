@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 import bpy
 from mathutils import Vector
 
-from .for_a_while import changed
+from .temporary_settings import changed
 
 
 def has_volume(tree):

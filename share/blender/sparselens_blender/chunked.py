@@ -7,8 +7,8 @@ from contextlib import ExitStack
 import bpy
 
 from .chain import Chain
-from .for_a_while import changed
-from .taking import ERRORS
+from .temporary_settings import changed
+from .render_job import ERRORS
 from .words import report
 
 
@@ -40,7 +40,7 @@ def esc_is_last():
     return "ESC" in last_keys
 
 
-class BitByBit:
+class Chunked:
     """An operator with begin(context); tick(context), which returns whether
     all is done; and end(context), which is called however it ends."""
 

@@ -69,7 +69,7 @@ def show(image):
         area.tag_redraw()
 
 
-class Taking:
+class PictureJob:
     """The pictures of the current frame, one for each eye: warps if the views
     are newer than the LDI, then gathers; with `draft`, gathers a draft
     first."""
@@ -149,7 +149,7 @@ class Follower:
     begins."""
 
     def __init__(self, state):
-        self.seen, self.taking = state, None
+        self.seen, self.job = state, None
         self.message = ""  # an error or a warning
 
     def tick(self, scene):
@@ -157,22 +157,22 @@ class Follower:
             return
         try:
             state = lens_state(scene)
-            if self.taking is None or self.taking.interruptible:
+            if self.job is None or self.job.interruptible:
                 if state != self.seen:
                     self.stop()
                     self.seen, self.message = state, ""
-                    self.taking = Taking(scene, draft=True)
-            if self.taking and self.taking.tick():
-                self.message = (self.taking.warnings or [""])[0]
-                self.taking = None
+                    self.job = PictureJob(scene, draft=True)
+            if self.job and self.job.tick():
+                self.message = (self.job.warnings or [""])[0]
+                self.job = None
         except ERRORS as error:
             self.stop()
             self.message = str(error)
 
     def stop(self):
-        if self.taking:
-            self.taking.stop()
-        self.taking = None
+        if self.job:
+            self.job.stop()
+        self.job = None
 
 
 follower = None
