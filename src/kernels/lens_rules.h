@@ -8,8 +8,7 @@
 
 namespace sparselens::kernels {
 
-// Keys of samples. A nearer sample has a greater key. The upper half is background_upper, or it encodes the perceptive
-// depth, which is at least 0. The lower half is the index of the sample. 0: no sample.
+// Keys of samples. A nearer sample has a greater key. The upper half is background_upper, or it encodes the disparity, which is at least 0. The lower half is the index of the sample. 0: no sample.
 inline constexpr uint background_upper = 1;
 inline uint upper_of_depth(float depth) { return floatBitsToUint(depth) + 2; }
 // 0 for a background, and for no sample.
@@ -64,7 +63,7 @@ inline bool is_crack(float x, float y, float depth_a, float depth_b) {
 }
 
 // A crack lies between two samples, in front of something that is farther than both by more than this, in pixels of
-// perceptive depth. The unevenness of their surface never reaches that. `shown`: the upper half of the key that a cell
+// disparity. The unevenness of their surface never reaches that. `shown`: the upper half of the key that a cell
 // shows; 0: it shows nothing. Samples that may have a crack between them, in front of it, have greater upper halves than
 // the result.
 inline constexpr float behind_crack_px = 1;
@@ -191,7 +190,7 @@ inline constexpr uint with_partial = 64, with_facets = 128, with_solids = 256; /
 
 struct Push {
     uint first_tile, tile_count, sample_count, pass;
-    float depth_at_1; // perceptive depth at z = 1
+    float depth_at_1; // disparity at z = 1
 };
 static_assert(sizeof(Push) == 20 && offsetof(Push, depth_at_1) == 16);
 

@@ -1,4 +1,4 @@
-#include "dof/lens/see.h"
+#include "dof/lens/visibility.h"
 
 #include "base/parallel.h"
 #include "dof/facets/placed_facets.h"
@@ -16,7 +16,7 @@ using namespace tile_cells;
 
 namespace {
 
-static_assert(size == 64); // see.h
+static_assert(size == 64); // visibility.h
 
 // Calls visit(begin, cells) for the opaque samples of a block, a few at once. `cells`: where the lens point sees the
 // samples from `begin` on.
@@ -34,7 +34,7 @@ template <typename Visit>
 
 } // namespace
 
-See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
+VisibilityPass::VisibilityPass(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
     seen_.origin = tile.origin;
     seen_.rows = tile.size;
     seen_.columns.fill({0, 0});
@@ -52,7 +52,7 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
 
 // The steps of a lens point. Cracks are closed last, because finding them needs the samples and fillers of the earlier
 // steps.
-const Seen &See::through(const LensSample &point) {
+const Visibility &VisibilityPass::through(const LensSample &point) {
     see_columns(point);
     see_opaque(point, scene_.samples, bounds_, everywhere(), seen_.front);
     see_facets(point);
@@ -70,7 +70,7 @@ const Seen &See::through(const LensSample &point) {
 }
 
 // Whether a lens point may see something so far behind something else that a crack can lie between.
-bool See::is_deep() const {
+bool VisibilityPass::is_deep() const {
     if (!tile_.facets.empty() || !tile_.solids.empty()) return true;
     float nearest = 0, farthest = std::numeric_limits<float>::infinity();
     for (const std::uint32_t b : tile_.samples) {
@@ -83,25 +83,25 @@ bool See::is_deep() const {
     return nearest > farthest + kernels::behind_crack_px;
 }
 
-TileProjection See::projection(const LensSample &point) const {
+TileProjection VisibilityPass::projection(const LensSample &point) const {
     return {point, float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride};
 }
 
-void See::see_columns(const LensSample &point) {
+void VisibilityPass::see_columns(const LensSample &point) {
     if (!scene_.cat_eye()) return; // all pixels see through it, as set already
     const Imath::V2i first = scene_.held_out.corner + tile_.origin;
     for (int y = 0; y < tile_.size; ++y)
         seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, tile_.size, first.y + y);
 }
 
-BlockBounds::Box See::box_of(const Cells &cells) const {
+BlockBounds::Box VisibilityPass::box_of(const Cells &cells) const {
     const auto x = float(tile_.origin.x), y = float(tile_.origin.y);
     return {x + float(cells.left), x + float(cells.right), y + float(cells.top), y + float(cells.bottom)};
 }
 
 // Finds the nearest opaque sample in each of some cells.
-void See::see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
-                     const Cells &seen, std::vector<std::uint64_t> &front) const {
+void VisibilityPass::see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
+                                const Cells &seen, std::vector<std::uint64_t> &front) const {
     std::fill(&front[at(-border, seen.top)], &front[at(-border, seen.bottom)], 0);
     const TileProjection to_cells = projection(point);
     for (const std::uint32_t b : bounds.reached(point, box_of(seen)))
@@ -116,14 +116,14 @@ void See::see_opaque(const LensSample &point, const BlockedSamples &samples, Blo
 }
 
 // Draws facets, which close steep surfaces between their samples.
-void See::see_facets(const LensSample &point) {
+void VisibilityPass::see_facets(const LensSample &point) {
     const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride,
                          tile_.size + 2 * (border - 1)};
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
 }
 
 // Solids hide what lies behind them (sample_blocks.h).
-void See::see_solids(const LensSample &point) {
+void VisibilityPass::see_solids(const LensSample &point) {
     if (tile_.solids.empty()) return;
     const BlockedSamples &solids = scene_.solids;
     const TileProjection to_cells = projection(point);
@@ -138,7 +138,7 @@ void See::see_solids(const LensSample &point) {
 }
 
 // Finds the images that mirrors and glass show. An image shows only where its surface is seen.
-void See::see_images(const LensSample &point) {
+void VisibilityPass::see_images(const LensSample &point) {
     seen_.images.clear();
     const auto shows_images = [&](std::uint32_t b) { return scene_.samples.blocks[b].shows_images; };
     if (scene_.samples.surface_coc.empty() || std::ranges::none_of(tile_.samples, shows_images)) return;
@@ -151,7 +151,7 @@ void See::see_images(const LensSample &point) {
         for (int x = 0; x < tile_.size; ++x) seen_.images[at(x, y)] = image_at(at(x, y));
 }
 
-void See::find_images(const TileProjection &projection, const SampleBlock &block) {
+void VisibilityPass::find_images(const TileProjection &projection, const SampleBlock &block) {
     const BlockedSamples &samples = scene_.samples;
     for_opaque(projection, samples, samples.coc, block,
                [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
@@ -165,7 +165,7 @@ void See::find_images(const TileProjection &projection, const SampleBlock &block
 }
 
 // Returns the key of the sample whose image shows in a cell; else the key of the front sample.
-std::uint64_t See::image_at(std::size_t cell) const {
+std::uint64_t VisibilityPass::image_at(std::size_t cell) const {
     const BlockedSamples &samples = scene_.samples;
     const std::uint64_t front = seen_.front[cell];
     if (front == 0 || !samples.is_image(std::uint32_t(front))) return front;
@@ -178,7 +178,7 @@ std::uint64_t See::image_at(std::size_t cell) const {
     return front;
 }
 
-void See::find_empty() {
+void VisibilityPass::find_empty() {
     for (int y = 0; y < tile_.size; ++y) {
         const auto [begin, end] = seen_.columns[std::size_t(y)];
         const std::uint64_t within = begin < end ? ~std::uint64_t{} >> (size - (end - begin)) << begin : 0;
@@ -187,7 +187,7 @@ void See::find_empty() {
 }
 
 // Finds cracks; their cells are no longer empty.
-void See::find_cracks() {
+void VisibilityPass::find_cracks() {
     cracks_.clear();
     seen_.for_each_empty([&](std::size_t cell) {
         const std::uint64_t key = torn_at(cell);
@@ -199,7 +199,7 @@ void See::find_cracks() {
 
 // Finds cracks in cells that are not empty: in even surfaces, cells between samples seldom stay empty, and show what is
 // far behind instead.
-void See::find_cracks_before_others() {
+void VisibilityPass::find_cracks_before_others() {
     if (!is_deep_) return;
     depths_of(std::span(seen_.front).first(at(-border, tile_.size + 1)), depths_.data());
     for (int y = 0; y < tile_.size; ++y) {
@@ -215,7 +215,7 @@ void See::find_cracks_before_others() {
 }
 
 // Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
-std::uint64_t See::torn_at(std::size_t cell) const {
+std::uint64_t VisibilityPass::torn_at(std::size_t cell) const {
     const std::uint32_t behind = kernels::behind_crack(kernels::upper_of(seen_.front[cell]));
     const BlockedSamples &samples = scene_.samples;
     const auto depth = [&](std::uint64_t key) { return samples.depth(std::uint32_t(key)); };
@@ -235,7 +235,7 @@ std::uint64_t See::torn_at(std::size_t cell) const {
 }
 
 // Finds the fillers of empty cells, and drops those that are hidden.
-void See::see_fillers(const LensSample &point) {
+void VisibilityPass::see_fillers(const LensSample &point) {
     std::uint64_t columns = 0;
     Cells box{0, tile_.size, 0, 0};
     for (int y = 0; y < tile_.size; ++y) {
@@ -256,14 +256,14 @@ void See::see_fillers(const LensSample &point) {
 }
 
 // Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
-bool See::hides(std::size_t cell, float depth) const {
+bool VisibilityPass::hides(std::size_t cell, float depth) const {
     const std::uint32_t limit = kernels::behind_upper(depth);
     const auto front = [&](std::size_t c) { return kernels::upper_of(seen_.front[c]) > limit; };
     return front(cell) || (front(cell - 1) && front(cell + 1)) ||
            (front(cell - stride) && front(cell + stride));
 }
 
-void See::close_cracks() {
+void VisibilityPass::close_cracks() {
     for (const Crack &crack : cracks_) {
         seen_.front[crack.cell] = crack.key;
         if (!seen_.images.empty()) seen_.images[crack.cell] = crack.key;

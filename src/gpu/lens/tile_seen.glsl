@@ -209,7 +209,7 @@ void find_odd() {
     if (any_empty) empty_count = 1; // all threads write the same
 }
 
-void settle_odd() {
+void repair_odd() {
     for (uint n = 0; n < odd_count; ++n) {
         const uint cell = odd[n].where & 0xffff;
         const uint64_t torn = torn_at(cell, odd[n].where >> 16), key = front[cell];
@@ -241,6 +241,6 @@ void see_behind(Tile tile) {
     barrier();
     if (empty_count != 0) see(0, tile.fillers, tile.filler_count);
     barrier();
-    settle_odd();
+    repair_odd();
     barrier();
 }

@@ -36,7 +36,7 @@ bool seen_through(uint l, ivec2 pixel) {
 
 float part_of(uint part, uint k) { return uintBitsToFloat(holdouts[held_out + 4 * pixels + 1 + 3 * part + k]); }
 
-// The share of light from a perceptive depth that passes at the thread's pixel `j`.
+// The share of light from a disparity that passes at the thread's pixel `j`.
 float passes(uint j, float depth) {
     const ivec2 at = pixel_of(j) + corner;
     const uint pixel = held_out + at.y * 2 * size + at.x, end = holdouts[pixel + 1];
