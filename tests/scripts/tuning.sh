@@ -18,18 +18,17 @@ dof/gather_rows.cpp beside highlight_rows most rows_at_once
 dof/border_reach.cpp rows_at_once
 dof/lens/beyond/frame_extension.cpp cell
 dof/lens/tile_plan.cpp blocks_in_run
-dof/lens/shadow_areas.cpp in_step
 dof/lens/highlights.h cell octaves
 dof/lens/visibility.cpp half
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/highlight_shadows.cpp rounding
-dof/lens/shadow_areas.cpp least_range most_steps rounding
+dof/lens/block_footprints.cpp in_area
+dof/lens/block_footprints.h rounding
 dof/lens/shadow_search.cpp rounding
-dof/lens/shadow_areas.h size
 dof/lens/shadow_search.cpp all_blocks longest_of_many
 dof/lens/shadow_search.h none
-dof/lens/shadow_search.cpp of_edge
+dof/lens/shadow_search.cpp edge
 dof/lens/shadow_search.h beside
 dof/lens/fillers.cpp pixels_at_once
 dof/lens/fillers.cpp directions unknown

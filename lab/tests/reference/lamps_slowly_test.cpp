@@ -110,7 +110,7 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     HighlightTile tile(lit, {{samples, footprints}, {lit.solids, solid_footprints}});
     std::vector<std::uint32_t> blocks(samples.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
-    tile.spread({0, 0}, {blocks, {}});
+    tile.spread({0, 0}, blocks);
 
     // For a rim pixel, the tile multiplies the share inside the disc by the lit share, an error of at most a quarter.
     // Each of its shares is measured with 64 points, eight in a row: an edge that crosses them is off by a sixteenth,

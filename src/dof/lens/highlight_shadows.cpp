@@ -47,7 +47,9 @@ const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedL
 bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b) const {
     const ShadowCasters &casters = search_.casters(b.set);
     const BlockedSamples &samples = casters.samples;
-    const auto [farthest, nearest] = search_.range_of(group, casters, samples.blocks[b.number]);
+    const SampleBlock &block = samples.blocks[b.number];
+    const auto [farthest, nearest] =
+        search_.range_of(group, casters, {{block.x_min, block.y_min}, {block.x_max, block.y_max}});
     const CocRange shared = shared_cocs(group);
     const float to_share = casters.across / float(group.lamp.coc);
     for (const auto &[footprint, depth, to, sample] : casters_of(group, b)) {
@@ -59,14 +61,13 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     return false;
 }
 
-void HighlightShadows::begin(const Imath::V2i &origin, const CasterBlocks &blocks, double pixel_aspect,
-                             const Imath::V2d &extent, const CoarseCasters *coarse,
-                             const ShadowLists *lists) {
+void HighlightShadows::begin(const Imath::V2i &origin, double pixel_aspect, const Imath::V2d &extent,
+                             const CoarseCasters *coarse, const ShadowLists *lists) {
     origin_ = origin;
     pixel_aspect_ = pixel_aspect;
     extent_ = extent;
     lists_ = lists;
-    search_.begin(blocks, extent, coarse);
+    search_.begin(extent, coarse);
 }
 
 Imath::V2f HighlightShadows::place(std::uint32_t highlight) const {
@@ -98,7 +99,7 @@ std::vector<CastingBlock> HighlightShadows::blocks_of_disc(const ShadowedLamp &l
     whole.screen.box = {{pixel(middle.x - reach.x), pixel(middle.y - reach.y)},
                         {pixel(middle.x + reach.x), pixel(middle.y + reach.y)}};
     std::vector<CastingBlock> blocks;
-    search_.in_picture(whole, [&](CastingBlock block) {
+    search_.for_each(whole, [&](CastingBlock block) {
         block.apart = group_ && is_apart(whole, block);
         blocks.push_back(block);
         return true;
@@ -114,7 +115,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
         lists_ && !lamp.screen.fine ? lists_->of(first_member, [&] { return blocks_of_disc(lamp); })
                                     : nullptr;
     if (!list)
-        return search_.in_tile(lamp, [&](CastingBlock block) {
+        return search_.for_each(lamp, [&](CastingBlock block) {
             block.apart = group_ && is_apart(lamp, block);
             return visit(block);
         });

@@ -42,12 +42,11 @@ public:
     HighlightShadows(const Highlights &highlights, const CasterSets &sets)
         : highlights_(highlights), samples_(sets.front().samples), search_(sets) {}
 
-    // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `blocks`: those
-    // that can reach it. `extent`: of the lens, pixels per pixel of CoC. `coarse`: given if the tile is gathered
-    // in cells. `lists`: shared by the tiles that are gathered from the same scene.
-    void begin(const Imath::V2i &origin, const CasterBlocks &blocks, double pixel_aspect,
-               const Imath::V2d &extent, const CoarseCasters *coarse = nullptr,
-               const ShadowLists *lists = nullptr);
+    // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `extent`: of the lens,
+    // pixels per pixel of CoC. `coarse`: given if the tile is gathered in cells. `lists`: shared by the tiles that are
+    // gathered from the same scene.
+    void begin(const Imath::V2i &origin, double pixel_aspect, const Imath::V2d &extent,
+               const CoarseCasters *coarse = nullptr, const ShadowLists *lists = nullptr);
 
     // Below, a highlight is given by its index in Highlights.
     // Finds the shadows that the members of a group share, in the pixels of a box. cast() adds the other shadows of

@@ -45,18 +45,18 @@ bool HighlightTile::dark(int x, int y) const {
     return true;
 }
 
-void HighlightTile::spread(const Imath::V2i &origin, const CasterBlocks &blocks, const CoarseCasters *coarse,
-                           const ShadowLists *lists) {
+void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                           const CoarseCasters *coarse, const ShadowLists *lists) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, scene_.pixel_aspect(), half_extent_, coarse, lists);
+    shadows_.begin(origin, scene_.pixel_aspect(), half_extent_, coarse, lists);
     const auto spread_all = [&](std::span<const std::uint32_t> group) {
         if (!scene_.optics->field.skews()) return spread_group(group);
         for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
     };
-    for (const std::uint32_t b : blocks.front()) highlights_.groups.for_each(b, spread_all);
+    for (const std::uint32_t b : blocks) highlights_.groups.for_each(b, spread_all);
     for_each_moved(scene_, origin, spread_all);
     add_lit();
 }

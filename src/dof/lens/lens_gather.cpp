@@ -51,8 +51,13 @@ struct SceneFootprints {
     BlockFootprints samples, solids, hiding;
     ShadowLists shadows;
     SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
-        : samples(*scene.ldi, scene.samples, Links(*scene.ldi, scene.lens)), solids(*scene.ldi, scene.solids),
-          hiding(*scene.ldi, scene.hiding), shadows(of_highlights.highlights, of_highlights.samples) {}
+        : samples(*scene.ldi, scene.samples, links_of(scene, of_highlights)),
+          solids(*scene.ldi, scene.solids), hiding(*scene.ldi, scene.hiding),
+          shadows(of_highlights.highlights, of_highlights.samples) {}
+    static std::optional<Links> links_of(const GatherScene &scene, const GatherScene &of_highlights) {
+        if (of_highlights.highlights.sample.empty()) return {}; // nothing is shadowed
+        return Links(*scene.ldi, scene.lens);
+    }
     CasterSets casters(const GatherScene &scene, float across = 1, const Imath::V2f &corner = {0, 0}) const {
         return {{scene.samples, samples, across, corner},
                 {scene.solids, solids, across, corner},
@@ -87,8 +92,7 @@ struct Gathering {
                               : GatherTuning::shadow_farther_cells;
         const Imath::V2f corner(tile.caster_scene->optics->corner * across - scene.optics->corner);
         return CoarseCasters{
-            footprints.at(tile.caster_scene).casters(*tile.caster_scene, float(across), corner),
-            tile.cell_blocks.casters(), far};
+            footprints.at(tile.caster_scene).casters(*tile.caster_scene, float(across), corner), far};
     }
     // The pixels of a tile in the picture, EXR coordinates.
     Imath::Box2i pixels_of(const PlannedTile &tile) const {
@@ -108,7 +112,7 @@ struct Gathering {
         chosen.lens_points[tile.tile] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
         const std::optional<CoarseCasters> coarse = coarse_casters(tile);
-        lit.spread(tile.first - scene.optics->corner, tile.blocks.casters(), coarse ? &*coarse : nullptr,
+        lit.spread(tile.first - scene.optics->corner, tile.blocks.samples, coarse ? &*coarse : nullptr,
                    &footprints.at(tile.scene).shadows);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);

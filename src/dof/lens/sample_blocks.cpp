@@ -94,8 +94,8 @@ void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
 
 void bound(SampleBlock &block, const BlockedSamples &samples) {
     constexpr float most = std::numeric_limits<float>::max();
-    block.x_min = block.y_min = block.coc_min = block.coc_least = block.depth_min = most;
-    block.x_max = block.y_max = block.coc_max = -most;
+    block.x_min = block.y_min = block.coc_min = block.coc_least = block.depth_min = block.focus_min = most;
+    block.x_max = block.y_max = block.coc_max = block.focus_max = -most;
     block.coc_shown = block.depth_max = 0;
     block.shows_opaque = block.shows_images = block.has_background = false;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
@@ -108,6 +108,9 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
         block.coc_least = std::min(block.coc_least, std::abs(samples.coc[i]));
         block.depth_min = std::min(block.depth_min, samples.depth(i));
         block.depth_max = std::max(block.depth_max, samples.depth(i));
+        const float focus = samples.hiding_coc()[i] + samples.depth(i);
+        block.focus_min = std::min(block.focus_min, focus);
+        block.focus_max = std::max(block.focus_max, focus);
         if (samples.source[i] == BlockedSamples::background) {
             block.has_background = true;
             continue;

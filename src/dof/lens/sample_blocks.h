@@ -50,6 +50,7 @@ struct SampleBlock {
     bool shows_images;                    // whether any sample is_image()
     bool has_background;                  // whether any sample is a background
     float depth_min, depth_max;           // disparity, pixels: of the farthest sample and the nearest
+    float focus_min, focus_max;           // of the sums of CoC and disparity, where it hides
 };
 
 struct BlockedSamples {

@@ -1,14 +1,14 @@
 // Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
-// The search compares bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than
-// the lamp.
+// The search asks on the lens: a sample hides a lamp only if, seen from some point of the lens, it lies before the lamp.
+// So it compares bounds (block_footprints.h) by their distance from the lamp and by how far the lens moves them apart.
 #pragma once
 
 #include "base/numbers.h"
 #include "dof/footprints/footprint.h"
+#include "dof/lens/block_footprints.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/shadow_areas.h"
 #include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
 
@@ -46,14 +46,12 @@ struct ShadowCasters {
     bool is_coarse() const { return across > 1; }
 };
 
-// The samples of a scene first, then its solids, then its fillers that hide lamps; and blocks of each.
+// The samples of a scene first, then its solids, then its fillers that hide lamps.
 using CasterSets = std::vector<ShadowCasters>;
-using CasterBlocks = std::vector<std::span<const std::uint32_t>>;
 
-// The casters of a coarse scene that can reach a tile.
+// The casters of a coarse scene.
 struct CoarseCasters {
     CasterSets sets;
-    CasterBlocks blocks;
     float far_cells; // so many cells of disparity in front of a lamp, these cast its shadows
 };
 
@@ -76,9 +74,6 @@ struct ShadowedLamp {
         return box.min.x < place.max.x + beside && box.max.x > place.min.x - beside &&
                box.min.y < place.max.y + beside && box.max.y > place.min.y - beside;
     }
-    float nearer_than(const SampleBlock &block) const {
-        return is_beside({{block.x_min, block.y_min}, {block.x_max, block.y_max}}) ? depth : hardly;
-    }
 };
 
 struct CastingBlock {
@@ -91,8 +86,8 @@ class ShadowSearch {
 public:
     explicit ShadowSearch(CasterSets sets) : casters_(std::move(sets)), own_(casters_.size()) {}
 
-    // Begins a tile, with the blocks that can reach it. `extent`: of the lens, pixels per pixel of CoC.
-    void begin(const CasterBlocks &blocks, const Imath::V2d &extent, const CoarseCasters *coarse);
+    // Begins a tile. `extent`: of the lens, pixels per pixel of CoC.
+    void begin(const Imath::V2d &extent, const CoarseCasters *coarse);
 
     const ShadowCasters &casters(std::size_t set) const { return casters_[set]; }
     // The range of disparities, in the pixels of a set of casters, in which its casters cast shadows.
@@ -100,65 +95,57 @@ public:
         float farthest, nearest;
     };
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
-    Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
+    // The same for casters that lie in a box.
+    Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const Imath::Box2f &place) const;
     // The disparity from which on coarse casters cast the shadows on a lamp, or on a group around it.
     float far_before(float depth, double coc) const;
 
-    // Calls visit(block), until it returns false, for the blocks that may cast a shadow on the lamp's screen: of the
-    // blocks that can reach the tile, or of all blocks. Both use the same order, set by set.
+    // Calls visit(block), until it returns false, for the blocks that may cast a shadow on the lamp's screen.
     template <typename Visit>
-    void in_tile(const ShadowedLamp &lamp, const Visit &visit) const;
-    template <typename Visit>
-    void in_picture(const ShadowedLamp &lamp, const Visit &visit) const;
+    void for_each(const ShadowedLamp &lamp, const Visit &visit) const;
 
 private:
-    void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
-    std::optional<CocRange> cocs_of(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
-    template <typename Visit>
-    bool in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                   const CocRange &cocs, const Visit &visit) const;
-    std::optional<CastingBlock> casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t block,
-                                        const CocRange &cocs) const;
-    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds) const;
-    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds,
-                           const CocRange &cocs) const;
+    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const CasterBounds &bounds,
+                   const Range &range) const;
+    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const CasterBounds &bounds,
+                           const Range &range) const;
 
     CasterSets casters_; // and those of the tile's coarse scene
     std::size_t own_;    // how many of them are not coarse
     Imath::V2d extent_{1, 1};
     float cell_px_ = 0, far_cells_ = 0; // of the tile's coarse casters; 0: there are none
-    struct AreaBlocks {
-        std::size_t set, area;
-        std::vector<std::uint32_t> blocks;
-    };
-    std::vector<AreaBlocks> by_area_; // those that can reach the tile
 };
 
-template <typename Visit>
-bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                             const CocRange &cocs, const Visit &visit) const {
-    for (const std::uint32_t b : blocks) {
-        const std::optional<CastingBlock> block = casting(lamp, set, b, cocs);
-        if (block && !visit(*block)) return false;
-    }
-    return true;
+// Whether any sample of a block lies between two disparities.
+inline bool lie_between(const BlockedSamples &samples, std::uint32_t block, float farthest, float nearest) {
+    const auto step = [](float depth) { return std::int32_t(kernels::upper_of_depth(depth)); }; // ascending
+    const std::int32_t from = step(farthest), to = step(nearest);
+    int count = 0;
+    for (std::uint32_t i = samples.blocks[block].begin; i < samples.blocks[block].end; ++i)
+        count += int(std::int32_t(samples.upper[i]) > from) & int(std::int32_t(samples.upper[i]) <= to);
+    return count > 0;
 }
 
 template <typename Visit>
-void ShadowSearch::in_tile(const ShadowedLamp &lamp, const Visit &visit) const {
-    for (const auto &[set, area, blocks] : by_area_)
-        if (const auto cocs = cocs_of(lamp, set, area); cocs && !in_blocks(lamp, set, blocks, *cocs, visit))
-            return;
-}
-
-template <typename Visit>
-void ShadowSearch::in_picture(const ShadowedLamp &lamp, const Visit &visit) const {
-    for (std::size_t set = 0; set < casters_.size(); ++set) {
-        const ShadowAreas &areas = casters_[set].footprints.areas();
-        for (std::size_t area = 0; area < areas.count(); ++area)
-            if (const auto cocs = cocs_of(lamp, set, area);
-                cocs && !in_blocks(lamp, set, areas.blocks_of(area), *cocs, visit))
-                return;
+void ShadowSearch::for_each(const ShadowedLamp &lamp, const Visit &visit) const {
+    for (std::uint32_t set = 0; set < casters_.size(); ++set) {
+        const ShadowCasters &casters = casters_[set];
+        const Range range = range_of(lamp, casters);
+        const auto pass = [&](const CasterBounds &bounds) {
+            return bounds.depth_max > range.farthest && bounds.depth_min <= range.nearest &&
+                   is_before(lamp, casters, bounds, range);
+        };
+        const auto visit_block = [&](std::uint32_t b, const CasterBounds &bounds) {
+            const Range within = range_of(lamp, casters, bounds.place);
+            const CasterBounds *before = bounds.depth_max > within.farthest ? &bounds : nullptr;
+            if (bounds.depth_min <= within.farthest)
+                before = lie_between(casters.samples, b, within.farthest, within.nearest)
+                             ? casters.footprints.of(b).nearer_than(within.farthest)
+                             : nullptr;
+            const Imath::Box2f shadow = before ? shadow_of(lamp, casters, *before, within) : Imath::Box2f();
+            return shadow.isEmpty() || visit(CastingBlock{b, set, shadow});
+        };
+        if (!casters.footprints.for_each(pass, visit_block)) return;
     }
 }
 

@@ -6,7 +6,6 @@
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/lens/sample_blocks.h"
-#include "dof/lens/shadow_search.h"
 #include "lens/aperture.h"
 #include "lens/lens_samples.h"
 
@@ -58,8 +57,7 @@ private:
 };
 
 struct TileBlocks {
-    std::vector<std::uint32_t> samples, facets, fillers, solids, hiding;
-    CasterBlocks casters() const { return {samples, solids, hiding}; }
+    std::vector<std::uint32_t> samples, facets, fillers, solids;
 };
 
 class SceneBlocks {
@@ -74,7 +72,7 @@ public:
 
 private:
     const GatherScene &scene_;
-    BlockFinder samples_, fillers_, solids_, hiding_;
+    BlockFinder samples_, fillers_, solids_;
 };
 
 // The sets of lens points that tiles choose from. Each is made when it is first asked for, by any thread.

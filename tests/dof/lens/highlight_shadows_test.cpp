@@ -1,5 +1,6 @@
 // The pixels of one lamp share shadows, which equal the shadows for each pixel to within a fiftieth of the disc.
 #include "base/numbers.h"
+#include "dof/lens/block_footprints.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
@@ -26,7 +27,7 @@ const Imath::Box2i box({0, 0}, {size - 1, size - 1});
 struct LampBehindBoards : BlockedLdi {
     BlockedSamples solids;
     BlockFootprints footprints, solid_footprints;
-    std::vector<std::uint32_t> lamp, blocks;
+    std::vector<std::uint32_t> lamp;
     Highlights highlights;
 
     // Boards at one depth, and solids or samples `behind` pixels of CoC behind them.
@@ -59,9 +60,7 @@ struct LampBehindBoards : BlockedLdi {
 
     explicit LampBehindBoards(const Ldi &from)
         : BlockedLdi(from, lens), solids(place_solids(ldi, lens, samples)),
-          footprints(ldi, samples, Links(ldi, lens)), solid_footprints(ldi, solids),
-          blocks(samples.blocks.size()) {
-        std::iota(blocks.begin(), blocks.end(), 0u);
+          footprints(ldi, samples, Links(ldi, lens)), solid_footprints(ldi, solids) {
         for (std::uint32_t i = 0; i < samples.count(); ++i)
             if (samples.source[i] != BlockedSamples::background && ldi.values[0][samples.source[i]] == 900)
                 lamp.push_back(i);
@@ -72,8 +71,7 @@ struct LampBehindBoards : BlockedLdi {
     std::vector<float> lit(bool together, const Imath::V2i &origin = {0, 0},
                            const ShadowLists *lists = nullptr) {
         HighlightShadows shadows(highlights, {{samples, footprints}, {solids, solid_footprints}});
-        const std::span<const std::uint32_t> none;
-        shadows.begin(origin, {blocks, solids.blocks.empty() ? none : blocks}, 1, {1, 1}, nullptr, lists);
+        shadows.begin(origin, 1, {1, 1}, nullptr, lists);
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);
@@ -199,32 +197,35 @@ TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
     EXPECT_GT(several, 10u);
 }
 
-TEST(ShadowAreas, BoundAllThatIsNearer) {
+// Boards before others, and a leaning surface whose samples part. Bounds of areas hold those of blocks.
+TEST(BlockFootprints, LieWithinTheirBounds) {
     const Ldi ldi = make_ldi(windows_of_size(100, 70), rgba_channels(), [&](int x, int y) {
-        std::vector<Sample> samples;
-        for (std::uint32_t n = 0; n < 3; ++n)
-            if (random_unit(x, y, n) < 0.6)
-                samples.push_back({float(2 + 20 * n + 9 * random_unit(x / 7, y / 5, n + 3)), {1, 1, 1, 1}});
-        return samples;
+        const double z = x < 40 ? double(depth_of(lens, -60 + 3 * x)) : 2 + 20 * random_unit(x / 7, y / 5, 1);
+        return std::vector<Sample>{{float(z), {1, 1, 1, 1}}, {float(z + 9), {1, 1, 1, 1}}};
     });
     const BlockedLdi blocked(ldi, lens);
-    const BlockedSamples &samples = blocked.samples;
-    const ShadowAreas areas(samples, nullptr);
+    const BlockFootprints footprints(ldi, blocked.samples, Links(ldi, lens));
     for (const double z : {1.0, 2.5, 4.0, 11.0, 24.0, 45.0, 1e6}) {
         const auto depth = float(disparity(lens, z));
-        for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
-            const NearBounds *bounds = areas.nearer_than(areas.of(b), depth);
-            for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i) {
-                if (!(samples.depth(i) > depth)) continue;
-                ASSERT_TRUE(bounds);
-                EXPECT_TRUE(bounds->x_min <= samples.x[i] && samples.x[i] <= bounds->x_max);
-                EXPECT_TRUE(bounds->y_min <= samples.y[i] && samples.y[i] <= bounds->y_max);
-                EXPECT_TRUE(bounds->coc_min < samples.coc[i] && samples.coc[i] < bounds->coc_max);
-            }
-            if (z == 1) {
-                EXPECT_EQ(bounds, nullptr);
-            }
-        }
+        const auto reaches = [&](const CasterBounds &bounds) { return bounds.depth_max > depth; };
+        int blocks = 0;
+        footprints.for_each(reaches, [&](std::uint32_t block, const CasterBounds &own) {
+            const CasterBounds *near = footprints.of(block).nearer_than(depth);
+            for (const auto &[footprint, farthest, nearest, sample] : footprints.of(block).joined)
+                for (const CasterBounds &bounds : {own, near ? *near : own}) {
+                    if (!(nearest > depth)) continue;
+                    const auto &[p, coc] = footprint;
+                    const auto [least, most] = std::ranges::minmax(coc);
+                    const CocRange cocs = bounds.cocs_between(farthest, nearest);
+                    EXPECT_TRUE(cocs.least <= least && most <= cocs.most);
+                    EXPECT_TRUE(bounds.depth_min <= nearest && nearest <= bounds.depth_max);
+                    EXPECT_TRUE(bounds.place.min.x - 1 <= p[0] && p[1] <= bounds.place.max.x + 1);
+                    EXPECT_TRUE(bounds.place.min.y - 1 <= p[2] && p[3] <= bounds.place.max.y + 1);
+                }
+            return near && ++blocks > 0;
+        });
+        for (const SampleBlock &block : blocked.samples.blocks) blocks -= block.depth_max > depth;
+        EXPECT_EQ(blocks, 0);
     }
 }
 
