@@ -167,7 +167,7 @@ struct Tile {
     int size;                          // pixels across and down that are asked for
     float weight;                      // of all its lens points
     uint blocks, block_count;          // among the lists of blocks
-    uint fillers, filler_count;        // among the lists of blocks
+    uint filler_count;                 // after them
     uint partial[4], partial_count[4]; // of each quarter, among the lists of partial samples
     uint lens, lens_count;             // among the lens points
     uint lens_in_pass;                 // the largest number of lens points in a pass
@@ -177,7 +177,7 @@ struct Tile {
     uint columns;
     uint holdout; // where the tile's parts of the holdout begin
 };
-static_assert(sizeof(Tile) == 100 && offsetof(Tile, lens) == 64 && offsetof(Tile, holdout) == 96);
+static_assert(sizeof(Tile) == 96 && offsetof(Tile, lens) == 60 && offsetof(Tile, holdout) == 92);
 
 // Lens points weigh differently for colours or for sides of the focus, or not all pixels see through them.
 inline constexpr uint weighted = 1;

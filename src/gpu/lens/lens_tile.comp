@@ -48,7 +48,7 @@ void main() {
     held_out = tile.holdout;
     const uint begin = push.pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
     if (begin >= end || max(corner.x, corner.y) >= tile.size) return; // nothing is asked for
-    for (uint j = 0; j < own; ++j) {
+    [[dont_unroll]] for (uint j = 0; j < own; ++j) {
         const uint from = 2 * place_of(t, group, j);
         sum[j] = Sum(vec4(0), vec4(0));
         if (push.pass > 0) sum[j] = Sum(sums[from], sums[from + 1]);
@@ -57,8 +57,9 @@ void main() {
         first_lens = tile.lens + k;
         first_column = tile.columns + k * size;
         for (uint l = 0; l < points; ++l) {
-            eyes[l] = eye_of(l);
-            weights[l] = lens_points[first_lens + l].weight;
+            const Lens p = lens_points[first_lens + l];
+            eyes[l] = vec4(p.x, p.y, p.pixel_x, p.pixel_y);
+            weights[l] = p.weight;
         }
         if (is_weighted) weigh_channels(group);
         see_behind(tile);
@@ -66,7 +67,7 @@ void main() {
         if ((rules & with_partial) != 0) add_partial(group);
         barrier();
     }
-    for (uint j = 0; j < own; ++j) {
+    [[dont_unroll]] for (uint j = 0; j < own; ++j) {
         const uint to = place_of(t, group, j);
         if (end == tile.lens_count) {
             write_pixel(to, sum[j], tile.weight);

@@ -95,7 +95,7 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, eve
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
-std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 64 : 256; }
+std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 
 // Lens points that a work group takes at once, by the memory that it shares (tile_data.glsl). More than four would share
 // little more.

@@ -189,14 +189,15 @@ void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTa
             weight = 0;
             for (const LensSample &p : task.lens) weight += p.weight;
         }
+        const std::uint32_t blocks = list_blocks(stripe, ranges.samples, 0, task.samples);
+        list_blocks(stripe, ranges.fillers, fillers, task.fillers);
         stripe.tiles.push_back(
             {.x = float(task.origin.x),
              .y = float(task.origin.y),
              .size = task.size,
              .weight = weight,
-             .blocks = list_blocks(stripe, ranges.samples, 0, task.samples),
+             .blocks = blocks,
              .block_count = count(task.samples),
-             .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
              .filler_count = count(task.fillers),
              .partial = {},
              .partial_count = {},
@@ -256,10 +257,10 @@ std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> t
 double turns_of(const GatherScene &scene, const TileTask &task) {
     const auto turns = [](const auto &blocks, std::span<const std::uint32_t> of) {
         double sum = 0;
-        for (const std::uint32_t b : of) sum += 2 + double(blocks[b].end - blocks[b].begin) / 64;
+        for (const std::uint32_t b : of) sum += 2 + double(blocks[b].end - blocks[b].begin) / 32;
         return sum;
     };
-    return 600 + turns(scene.samples.blocks, task.samples) +
+    return 800 + turns(scene.samples.blocks, task.samples) +
            turns(scene.fillers.samples.blocks, task.fillers) + 3 * turns(scene.solids.blocks, task.solids) +
            12 * turns(scene.facets.blocks, task.facets) + double(partial_count(scene.samples, task));
 }

@@ -45,7 +45,7 @@ const uint fronts = images_from + (rules & images) / images * images_from;
 // nearest images, and later of what each cell shows.
 shared uint64_t front[fronts];
 shared uvec2 near[workers]; // the samples of the blocks that reach the quarter: begin, end
-shared uint near_count, empty_count;
+shared uint near_count;
 // Partial samples in front of the pixels of each thread, as a chain of entries: [thread] the first, [entry] the next.
 shared uint chains[workers], nexts[chunk * points];
 

@@ -16,7 +16,7 @@ void chain_chunk(uint begin) {
     for (uint n = thread(); n < min(partial_count - begin, chunk); n += workers) {
         const uint i = partial_lists[partial_first + begin + n];
         [[dont_unroll]] for (uint l = 0; l < points; ++l) {
-            const ivec2 at = seen_at(places[i], cocs[i], eye_of(l));
+            const ivec2 at = seen_at(places[i], cocs[i], eyes[l]);
             const bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)));
             if (inside && key_of(uppers[i], i) >= front[cell_of(l, at)])
                 nexts[l * chunk + n] = atomicExchange(chains[owner_of(uvec2(at))], l * chunk + n) | (at.y * size + at.x) << 16;
@@ -57,7 +57,7 @@ void add_over(uint entry, uint begin, uint group) {
 }
 
 void add_partial(uint group) {
-    for (uint n = 0; n < points * own; ++n) left[n] = 1;
+    [[dont_unroll]] for (uint n = 0; n < points * own; ++n) left[n] = 1;
     for (uint begin = 0; begin < partial_count; begin += chunk) {
         chain_chunk(begin);
         for (uint entry = sorted_chain(); entry != no_entry; entry = next_of(entry)) add_over(entry, begin, group);

@@ -1,12 +1,6 @@
 // Finds the nearest key in each cell that the lens points see: of opaque samples, of facets between them (dof/facets)
 // and of solids behind them (dof/lens/sample_blocks.h). Each sample is read once for all of the lens points.
 
-// The lens point number `l`, where it need not be one of eyes[] that the compiler knows.
-vec4 eye_of(uint l) {
-    const uint p = first_lens + l;
-    return vec4(lens_points[p].x, lens_points[p].y, lens_points[p].pixel_x, lens_points[p].pixel_y);
-}
-
 // Returns the pixel of the quarter, or next to it, in which a lens point sees a sample; outside: x < -1.
 ivec2 seen_at(vec2 place, float coc, vec4 eye) {
     const float x = seen_along(place.x, first.x - 1, coc, eye.x, eye.z + shift_of_samples),
@@ -32,7 +26,7 @@ uint first_near(uint list, uint count) {
     if (thread() < count) {
         const Block b = blocks[block_lists[list + thread()]];
         bool reaches = false;
-        [[dont_unroll]] for (uint l = 0; l < points; ++l) reaches = reaches || !out_of_reach(b, eye_of(l));
+        [[dont_unroll]] for (uint l = 0; l < points; ++l) reaches = reaches || !out_of_reach(b, eyes[l]);
         if (reaches) near[atomicAdd(near_count, 1)] = uvec2(b.begin, b.opaque_end);
     }
     barrier();
@@ -59,6 +53,8 @@ uint64_t image_key(uint sample_) {
 // Finds the nearest samples of a kind: those that show themselves; solids, which hide what lies behind them, in cells
 // that show something; and images.
 void see(uint kind, uint list, uint count) {
+    vec4 from[points]; // eyes[], in registers
+    for (uint l = 0; l < points; ++l) from[l] = eyes[l];
     FOR_NEAR(i, list, count) {
         if (kind == images && !is_image(i.x)) continue;
         const vec2 place = places[i.x];
@@ -66,8 +62,8 @@ void see(uint kind, uint list, uint count) {
         const uint names = kind == with_solids ? solids[i.x - push.sample_count] : i.x;
         const uint64_t key = kind == images ? image_key(i.x) : key_of(uppers[i.x], names);
         for (uint l = 0; l < points; ++l) {
-            const ivec2 at = seen_at(place, coc, eyes[l]);
-            if (at.x < -1 || (kind == with_solids && front[cell_of(l, at)] == 0UL)) continue;
+            const ivec2 at = seen_at(place, coc, from[l]);
+            if (at.x < -1 || (kind == with_solids && upper_of(front[cell_of(l, at)]) < hiding)) continue;
             atomicMax(front[(kind == images ? images_from : 0) + cell_of(l, at)], key);
         }
     }
@@ -124,7 +120,7 @@ void draw(Triangle t, uint l) {
 void see_facets(uint list, uint count) {
     FOR_NEAR(i, list, count)
         [[dont_unroll]] for (uint l = 0; l < points; ++l) {
-            const Triangle t = triangle_of(i.x, eye_of(l));
+            const Triangle t = triangle_of(i.x, eyes[l]);
             if (parted(t.x) || parted(t.y)) draw(t, l);
         }
 }
@@ -188,7 +184,6 @@ uint odd_count;
 
 // Finds empty cells and cracks, and where images may show.
 void find_odd() {
-    bool any_empty = false;
     odd_count = 0;
     for (uint l = 0; l < points; ++l) {
         uint cell = cell_of(l, ivec2(thread() % size, thread() / size * own));
@@ -201,12 +196,10 @@ void find_odd() {
                                                      uvec4(behind_crack(here.y))));
             const uint axes = in_front.x | in_front.y << 1 | in_front.z << 2 | in_front.w << 3;
             if (has_images || here.y == 0 || axes != 0) odd[odd_count++].where = cell | axes << 16;
-            any_empty = any_empty || here.y == 0;
             above = here;
             here = below;
         }
     }
-    if (any_empty) empty_count = 1; // all threads write the same
 }
 
 void repair_odd() {
@@ -228,8 +221,7 @@ void repair_odd() {
 // Finds what lies behind the partial samples in the quarter's pixels, into front[]. Ends with a barrier.
 void see_behind(Tile tile) {
     for (uint c = thread(); c < fronts; c += workers) front[c] = 0UL;
-    if (thread() == 0) empty_count = 0;
-    see(0, tile.blocks, tile.block_count);
+    see(0, tile.blocks, tile.block_count + tile.filler_count);
     if ((rules & with_facets) != 0) see_facets(tile.facets, tile.facet_count);
     if ((rules & with_solids) != 0) {
         barrier();
@@ -238,9 +230,6 @@ void see_behind(Tile tile) {
     if (has_images) see(images, tile.blocks, tile.block_count);
     barrier();
     find_odd();
-    barrier();
-    if (empty_count != 0) see(0, tile.fillers, tile.filler_count);
-    barrier();
     repair_odd();
     barrier();
 }

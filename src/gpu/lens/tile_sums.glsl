@@ -85,7 +85,7 @@ void add_behind(inout Sum sum, uint l, float share, Behind behind) {
 }
 
 void add_behind(uint group) {
-    for (uint j = 0; j < own; ++j) {
+    [[dont_unroll]] for (uint j = 0; j < own; ++j) {
         Sum of = sum[j];
         for (uint l = 0; l < points; ++l)
             if (seen_through(l, pixel_of(j))) add_behind(of, l, 1, behind_at(l, j, group));
