@@ -372,7 +372,7 @@ def test_finish(clustered, names, tool, tmp_path):
         sparselens.finish(gathered, rays, around=[(gathered, rays[:1])])
     with pytest.raises(TypeError, match="around"):
         sparselens.finish(gathered, rays, around=[gathered])
-    with pytest.raises(sparselens.UsageError, match="one render alone"):
+    with pytest.raises(sparselens.UsageError, match="the noise of a single render is unknown"):
         sparselens.finish(gathered, rays[:1])
     with pytest.raises(sparselens.UsageError, match="samples: 1 for 2"):
         sparselens.finish(gathered, rays, samples=[64])
