@@ -3,7 +3,7 @@
 # the tests. tests/mutations.txt lists the faults.
 #
 #   tests/mutations.sh [NAME...]     all, or those of these names
-#   tests/mutations.sh --check       does each fault find its line, exactly one? Nothing is built
+#   tests/mutations.sh --check       does each fault find its line, exactly one, and its tests? Nothing is built
 #
 # Works on a copy in build-mutations/; exits with 1 if a fault is not caught.
 set -euo pipefail
@@ -18,10 +18,12 @@ complain() {
     wrong=1
 }
 cut -d '|' -f 1 <<<"$faults" | sort | uniq -d | grep . && complain "names that are taken twice"
-while IFS='|' read -r name file what instead _; do
+suites=$(grep -rhoE 'TEST(_F|_P)?\([A-Za-z]+' tests lab/tests | sed 's/.*(//' | sort -u)
+while IFS='|' read -r name file what instead caught; do
     [ -f "$file" ] || { complain "$name: there is no $file"; continue; }
     changed=$(sed "s|$what|$instead|" "$file" | diff "$file" - | grep -c '^<' || true)
     [ "$changed" -eq 1 ] || complain "$name: changes $changed lines of $file, not one"
+    [[ ! "$caught" =~ ^([A-Za-z]+)\.\*$ ]] || grep -qx "${BASH_REMATCH[1]}" <<<"$suites" || complain "$name: no tests $caught"
     [[ ! "${instead//\\&/}" == *"&"* ]] || complain "$name: puts what it finds in for a &; write \\&"
 done <<<"$faults"
 [ $wrong -eq 0 ] || exit 1
