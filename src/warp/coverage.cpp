@@ -148,9 +148,9 @@ private:
 
 void keep_opaque(const ReprojectedViews &views, double tolerance, Ldi &ldi) {
     if (ldi.alpha() == npos) return;
-    OpacityRepair filling(views, tolerance, ldi);
+    OpacityRepair repair(views, tolerance, ldi);
     parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t pixel = begin; pixel < end; ++pixel) filling.fill_pixel(pixel);
+        for (std::size_t pixel = begin; pixel < end; ++pixel) repair.fill_pixel(pixel);
     });
 }
 

@@ -147,7 +147,7 @@ private:
 
 // The runs that no view contradicts, of each row of pixels.
 std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, double scale, const Ldi &ldi,
-                                        const Imath::Box2i &frame, const SurfaceExtension &continuing) {
+                                        const Imath::Box2i &frame, const SurfaceExtension &extension) {
     std::vector<std::vector<Run>> rows(std::size_t(frame.max.y - frame.min.y + 1));
     for (const PlacedView &view : views) {
         const FarthestDepth sight = farthest_around(*view.samples, farthest_in(*view.samples));
@@ -158,9 +158,9 @@ std::vector<std::vector<Run>> find_runs(std::span<const PlacedView> views, doubl
         };
         parallel_for(rows.size(), [&](std::size_t row) {
             if (&view == &views.front())
-                rows[row] = continuing.runs_of(frame.min.y + int(row), may_be);
+                rows[row] = extension.runs_of(frame.min.y + int(row), may_be);
             else
-                for (Run &run : rows[row]) run.length = continuing.follow(run, may_be);
+                for (Run &run : rows[row]) run.length = extension.follow(run, may_be);
         });
     }
     return rows;
@@ -211,11 +211,11 @@ void add(std::vector<Added> all, double scale, Ldi &ldi) {
 
 void extend_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi) {
     const Imath::Box2i frame = views[0].samples->windows.data;
-    const SurfaceExtension continuing(ldi, frame, scale);
+    const SurfaceExtension extension(ldi, frame, scale);
     std::vector<Hidden> hidden;
-    for (const std::vector<Run> &row : find_runs(views, scale, ldi, frame, continuing))
+    for (const std::vector<Run> &row : find_runs(views, scale, ldi, frame, extension))
         for (const Run &run : row)
-            continuing.follow(run, [&](const Hidden &one) {
+            extension.follow(run, [&](const Hidden &one) {
                 hidden.push_back(one);
                 return true;
             });

@@ -14,7 +14,7 @@ constexpr int x = 12, y = 34; // the tested pixel
 constexpr std::size_t pixel = y * 64 + x;
 
 // Three samples: a partial one; one behind focus, of value 2; an opaque one in front of focus, of value 8.
-struct WeighTest : testing::Test {
+struct AccumulatorTest : testing::Test {
     const TileFixture tile{[](int column, int row) {
                                if (column == 1 && row == 1) return Samples{opaque_at(-3, 8)};
                                if (column == 0 && row == 0) return Samples{partial_at(2, .25f, 4)};
@@ -67,37 +67,37 @@ struct WeighTest : testing::Test {
 
 constexpr LensSample point{0, 0, 0, 0, .5f}, heavy{0, 0, 0, 0, 1.5f};
 
-TEST_F(WeighTest, AllSeeOneSample) {
+TEST_F(AccumulatorTest, AllSeeOneSample) {
     const Mean even = mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(behind)}});
     EXPECT_FLOAT_EQ(even.value, 2);
     EXPECT_FLOAT_EQ(even.known, 2);
 }
 
-TEST_F(WeighTest, EachCountsByItsWeight) {
+TEST_F(AccumulatorTest, EachCountsByItsWeight) {
     EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value,
                     (2 + 3 * 8) / 4.f);
 }
 
-TEST_F(WeighTest, WhatIsUnknownDoesNotCount) {
+TEST_F(AccumulatorTest, WhatIsUnknownDoesNotCount) {
     const Mean half = mean<UniformWeights>({{point, opaque(behind)}, {heavy, nothing()}});
     EXPECT_FLOAT_EQ(half.value, 2);
     EXPECT_FLOAT_EQ(half.known, .5f);
     EXPECT_EQ(mean<UniformWeights>({{point, nothing()}}).known, 0);
 }
 
-TEST_F(WeighTest, APartialSampleLetsTheRestThrough) {
+TEST_F(AccumulatorTest, APartialSampleLetsTheRestThrough) {
     EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
     EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(in_front))}}).value, 8)
         << "it is behind that";
 }
 
-TEST_F(WeighTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
+TEST_F(AccumulatorTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
     const Mean alone = mean<UniformWeights>({{point, covered(nothing())}});
     EXPECT_FLOAT_EQ(alone.value, 4);
     EXPECT_FLOAT_EQ(alone.known, .25f * .5f);
 }
 
-TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
+TEST_F(AccumulatorTest, ColoursAndSidesCountByTheirs) {
     const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, {9, .5f, 9}, {9, 1.5f, 9}},
         rim{0, 0, 0, 0, 1, {1, 1, 1}, {9, 1.5f, 9}, {9, .5f, 9}};
     const float by_side =
@@ -110,7 +110,7 @@ TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
 
 // A cat's eye lets one of two lens points through at that pixel. The result is the mean light at that point, whatever
 // the point's weight; with darkening, the light times that weight.
-TEST_F(WeighTest, ACatsEyeLeavesOutOrDarkens) {
+TEST_F(AccumulatorTest, ACatsEyeLeavesOutOrDarkens) {
     const LensSample bright{0, 0, 0, 0, .5f, {1, 3, 1}};
     Visibility beside = opaque(in_front);
     beside.columns[y] = {x + 1, 64};

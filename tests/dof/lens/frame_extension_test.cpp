@@ -198,8 +198,7 @@ TEST(FrameExtension, SmallLightsGoOnAsDiscs) {
     EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
 }
 
-// A lamp of radius 5 pixels is 5 pixels beyond the frame at a disparity of 4 pixels: rim views saw four columns
-// of it.
+// A lamp of radius 5 pixels is 5 pixels beyond the frame at a disparity of 4 pixels: rim views saw four columns of it.
 TEST(FrameExtension, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     const Imath::Box2i frame({10, 0}, {79, 79});
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [&](int x, int y) {
