@@ -3,10 +3,10 @@
 // Units. Depth is planar, in scene units, in (0, inf]; inf is the sky. Cameras stand at x right, y up, z forward, in
 // scene units. Places in a picture are EXR coordinates: pixels, x right, y down; a window includes its last pixel.
 // Lengths in a picture, such as the radius of a circle of confusion, are in pixels.
-// Samples. LDIs are tidy, as open_ldi() and warp() return them (deep/tidy.h): the samples of a pixel are sorted by depth
-// and do not overlap. Colours are premultiplied and scene-linear.
-// Errors. Functions throw UsageError if the caller can give a missing or impossible value, and Error if a file or the
-// memory fails (base/error.h). Messages name the file, channel or parameter.
+// Samples. LDIs are tidy, as open_ldi() and warp() return them (deep/tidy.h): the samples of a pixel are sorted by
+// depth and do not overlap. Colours are premultiplied and scene-linear.
+// Errors. Functions throw UsageError if an argument is missing or impossible, and Error if a file cannot be read or
+// written, or memory runs out (base/error.h). Messages name the file, channel or parameter.
 // Threads. Functions use all threads that oneTBB gives them; their number never changes a result. They may run at the
 // same time if they share no modifiable argument. Only the functions of io/ touch files.
 #pragma once

@@ -33,7 +33,7 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged cop
 // The same samples without channels.
 Ldi without_channels(const Ldi &ldi);
 
-// Has the channels and windows of `like`, and z_back, dx, dy, weight, optical and solid if `like` has them; no pixels
+// Has the channels and windows of `like`, and z_back, dx, dy, weight, image_z and solid if `like` has them; no pixels
 // yet.
 Ldi empty_like(const Ldi &like);
 

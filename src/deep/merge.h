@@ -22,8 +22,8 @@ void add_layer(Ldi &ldi, Ldi layer, const std::string &name);
 // except for coverage: without A they are opaque, and without per-channel alpha AR, AG and AB equal A.
 Ldi deep_merge(const std::vector<Ldi> &parts);
 
-// A deep picture that holds out another one: it hides what lies behind its samples and is not shown itself. It stays
-// sharp, because light is held out at the pixel where it arrives.
+// A deep picture that holds out another one: it hides what lies behind its samples, and does not appear in the
+// picture. It stays sharp, because light is held out at the pixel where it arrives.
 class Holdout {
 public:
     explicit Holdout(Ldi ldi); // tidy

@@ -13,7 +13,7 @@ struct PictureOptions {
     const GatherMethod *method = &gather_methods().front();
     // gather_picture() sets its region and its holdout, and `beyond` if that is not given.
     GatherOptions gather = {};
-    // With the same display window. What it hides is not shown, and it is not shown itself.
+    // A deep picture with the same display window. It hides what lies behind it, and does not appear in the picture.
     const Ldi *holdout = nullptr;
     // The holdout is out of focus like the scene; else it stays sharp, which only the method lens supports.
     bool holdout_defocused = false;

@@ -219,8 +219,8 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
     // Highlights look at the adjacent cells. Sharpening looks at the noise blocks beside those, and at one more row.
-    // The continuation beyond the left and the right of the frame (frame_extension.h) looks at as many rows of the picture
-    // as a cell has.
+    // The continuation beyond the left and the right of the frame (frame_extension.h) looks at as many rows of the
+    // picture as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
             (2 + across) * highlight_rows + BlockedSamples::size};
 }

@@ -17,8 +17,8 @@ struct GatherOptions {
     int layers = 8;             // selective: the largest number of layers kept apart in a pixel
     LensGatherOptions lens;     // lens: quality, lens points
     double layer_tolerance = 0; // lens: layers of the light that are merged (merge_layers.h), pixels; 0: none
-    // Lens: the frame, beyond which surfaces continue (lens/beyond/frame_extension.h), and how far the lens looks there,
-    // pixels.
+    // Lens: the frame, beyond which surfaces continue (lens/beyond/frame_extension.h), and how far the lens looks
+    // there, pixels.
     struct Beyond {
         Imath::Box2i frame;
         Imath::V2i reach;

@@ -8,7 +8,8 @@
 
 namespace sparselens::kernels {
 
-// Keys of samples. A nearer sample has a greater key. The upper half is background_upper, or it encodes the disparity, which is at least 0. The lower half is the index of the sample. 0: no sample.
+// Keys of samples. A nearer sample has a greater key. The upper half is background_upper, or it encodes the disparity,
+// which is at least 0. The lower half is the index of the sample. 0: no sample.
 inline constexpr uint background_upper = 1;
 inline uint upper_of_depth(float depth) { return floatBitsToUint(depth) + 2; }
 // 0 for a background, and for no sample.
@@ -64,8 +65,8 @@ inline bool is_crack(float x, float y, float depth_a, float depth_b) {
 
 // A crack lies between two samples, in front of something that is farther than both by more than this, in pixels of
 // disparity. The unevenness of their surface never reaches that. `shown`: the upper half of the key that a cell
-// shows; 0: it shows nothing. Samples that may have a crack between them, in front of it, have greater upper halves than
-// the result.
+// shows; 0: it shows nothing. A crack may lie in front of the cell if samples on two sides of it have greater upper
+// halves than the result.
 inline constexpr float behind_crack_px = 1;
 inline uint behind_crack(uint shown) {
     return shown == 0 ? background_upper : upper_of_depth(depth_of(shown) + behind_crack_px);
@@ -140,8 +141,8 @@ inline constexpr int side = size + 2;             // with the cells next to it, 
 inline constexpr uint cells = uint(side * side);
 inline constexpr uint chunk = 256; // partial samples at once
 inline constexpr uint team = 32;   // threads that share a block
-// Each row of pixels begins with so much later an owner (tile_data.glsl), because what stands upright in the picture
-// must not be one thread's alone.
+// From one row of pixels to the next, owners (tile_data.glsl) are shifted by this many columns, so that several threads
+// share the pixels of an upright object.
 inline constexpr uint turn = 11;
 // A bit of the upper halves of keys, which are smaller without it: set for all samples but fillers.
 inline constexpr uint hiding = 0x80000000u;

@@ -20,9 +20,8 @@ struct ThinLens {
     double pixel_aspect = 1; // width over height of a pixel; offsets in y are multiplied by it
 };
 
-// The disparity R F / z, in pixels: 0 at infinity. The difference of two disparities is the
-// difference of their circles of confusion (CoC) at any focus distance, so an LDI that is clustered by it can still
-// be refocused.
+// The disparity R F / z, in pixels: 0 at infinity. The difference of two disparities is the difference of their circles
+// of confusion (CoC) at any focus distance, so an LDI that is clustered by it can still be refocused.
 double disparity(const ThinLens &lens, double z);
 
 // The signed CoC radius in pixels, negative in front of the focus. Never NaN for z and focus in (0, inf].

@@ -72,7 +72,8 @@ void check_views(std::span<const PackedView> views);
 class ReprojectedViews {
 public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
-    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes of flat views become two samples where disparity jumps by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws like check_views().
+    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes of flat views become two samples where disparity
+    // jumps by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws like check_views().
     ReprojectedViews(std::vector<PackedView> views, double focal_px, double scale, double jump);
     // Refers to the views, which must outlive this.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)

@@ -14,8 +14,8 @@ struct WarpTuning {
     // Pixels around the one of a view that must see no farther (extend_surfaces.h).
     static constexpr int sight_margin = 1;
 
-    // Solids (extend_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2, pinecone and
-    // macro have .7 and .1 dB less inside their masks.
+    // Solids (extend_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2,
+    // pinecone and macro have .7 and .1 dB less inside their masks.
     static constexpr double solid_px = 4;
     // Pixels of disparity: a view counts as seeing something nearer if it is nearer by at least this.
     static constexpr double solid_nearer_px = 0.5;
@@ -88,7 +88,7 @@ struct WarpTuning {
     // Largest share of the lamp's light that may be changed.
     static constexpr double lamp_largest_change = 0.5;
 
-    // Depth of images in mirrors and glass (images/image_sweep.h). Pixels of disparity: step between depths that are tried.
+    // Depth of images in mirrors and glass (images/image_sweep.h). Pixels of disparity: step of the search.
     static constexpr double image_step_px = 0.5;
     // Pixels of disparity: how far behind the camera (below 0) the search goes.
     static constexpr double image_behind_camera_px = 6;

@@ -19,7 +19,7 @@ struct Sample {
     double solid = 0;
 };
 
-// samples_at(x, y) returns the samples of a pixel, in EXR coordinates. z_back, optical and solid exist only if a sample
+// samples_at(x, y) returns the samples of a pixel, in EXR coordinates. z_back, image_z and solid exist only if a sample
 // has one; dx, dy and weight always.
 Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
              const std::function<std::vector<Sample>(int x, int y)> &samples_at);

@@ -70,7 +70,7 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
                    "where the renders replace it")
         ->type_name("error|trust")
         ->transform(words(shows));
-    app.add_option("--goal", options.goal, "Also print how many rays a picture of this quality takes, in dB")
+    app.add_option("--goal", options.goal, "Also print how many rays a picture of this quality (dB) takes")
         ->type_name("DB")
         ->check(number(above_0));
     CLI::Option *ask =

@@ -1,8 +1,8 @@
 // Answers HTTP requests on a port of this machine. Only this class uses sockets.
 //
 // One thread reads the requests of all connections and writes their answers, so a slow connection delays nobody and
-// costs no more memory than one bounded request. Other threads (job_queue.h) work on complete requests that are admitted. If
-// there are too many connections, the one that has been silent or incomplete for longest is closed.
+// costs no more memory than one bounded request. Other threads (job_queue.h) work on complete requests that are
+// admitted. If there are too many connections, the one that has been silent or incomplete for longest is closed.
 #pragma once
 
 #include "viewing/http_request.h"

@@ -45,8 +45,8 @@ using Presets = std::map<std::string, std::string>;
 // The words of a dof-view command line that dof-gather also has: IN, and how the picture is made.
 Words picture_words(const Words &all);
 
-// The words with a page's settings (PageRequest::settings) applied; its lens is the name of a preset. Throws UsageError if a
-// page may not set an option.
+// The words with a page's settings (PageRequest::settings) applied; its lens is the name of a preset. Throws UsageError
+// if a page may not set an option.
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
                  const Presets &presets = {});
 

@@ -1,7 +1,7 @@
 // Serves the viewer to browsers on a port of this machine.
 //
 // Requests must come from the loopback device, name this machine, know the key (access.h) and be small (http_request.h,
-// page_request.h). Refused requests get 403, malformed ones 400, and a page that has asked for something newer gets 409.
+// page_request.h). Refused requests get 403, malformed ones 400, and those that a newer one replaces 409.
 #pragma once
 
 #include "viewing/viewer.h"

@@ -1,5 +1,5 @@
-// The footprints of the samples of a picture, by blocks. The shadows on small lamps (highlight_tile.h) are computed from
-// them. Bounds of blocks, and of areas of 8 x 8 blocks, tell at once which of them cast no shadow on a lamp.
+// The footprints of the samples of a picture, by blocks. The shadows on small lamps (highlight_tile.h) are computed
+// from them. Bounds of blocks, and of areas of 8 x 8 blocks, tell at once which of them cast no shadow on a lamp.
 #pragma once
 
 #include "dof/footprints/footprint.h"

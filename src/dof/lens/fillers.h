@@ -3,9 +3,8 @@
 // The ground of a pixel is the last thing that it holds: if the pixel is transparent, what lies at infinity (nothing);
 // else its last sample of half coverage or more. A ground continues along its row and its column behind nearer grounds,
 // as far as some point of the lens could see it. It continues to n pixels beyond its end while the ground there is
-// nearer by more than one_surface_px and by more than (n - 1) / sqrt(2) pixels of disparity, because its edge
-// may run at 45 degrees. It does not continue where the ground is unknown; frame_extension.h says what lies beyond the
-// frame.
+// nearer by more than one_surface_px and by more than (n - 1) / sqrt(2) pixels of disparity, because its edge may run
+// at 45 degrees. It does not continue where the ground is unknown; frame_extension.h says what lies beyond the frame.
 //
 // If grounds continue into a pixel from several sides, the one with the nearest end fills it; if several ends are as
 // near, the farthest ground. The filler is the mean of all these grounds that are one surface with it, each weighted by

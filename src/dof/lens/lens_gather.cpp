@@ -21,8 +21,8 @@
 
 namespace sparselens {
 
-// Gathers one tile of the lens picture. Every lens point sees its own picture of the samples (visibility.h); the tile is the
-// mean over the lens points (accumulator.h).
+// Gathers one tile of the lens picture. Every lens point sees its own picture of the samples (visibility.h); the tile
+// is the mean over the lens points (accumulator.h).
 
 // Calls done(picture) with the result.
 void gather_tile(const GatherScene &scene, const TileTask &tile,

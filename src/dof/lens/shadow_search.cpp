@@ -38,8 +38,8 @@ ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const Shado
     return casters.is_coarse() || lamp.is_beside(place) ? range : Range{lamp.hardly, range.nearest};
 }
 
-// Whether some lens point may bring something in these bounds, in a range of depths, in front of the lamp. They approach
-// by at most the difference of their CoCs.
+// Whether some lens point may bring something in these bounds, in a range of depths, in front of the lamp. They
+// approach by at most the difference of their CoCs.
 bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
                              const CasterBounds &bounds, const Range &range) const {
     const CocRange cocs = bounds.cocs_between(range.farthest, range.nearest);

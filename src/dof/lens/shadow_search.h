@@ -1,7 +1,7 @@
 // Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
-// The search asks on the lens: a sample hides a lamp only if, seen from some point of the lens, it lies before the lamp.
-// So it compares bounds (block_footprints.h) by their distance from the lamp and by how far the lens moves them apart.
+// A sample hides a lamp only if it lies before the lamp, seen from some point of the lens. So the search compares bounds
+// (block_footprints.h) by their distance from the lamp and by how far the lens moves them apart.
 #pragma once
 
 #include "base/numbers.h"

@@ -97,8 +97,7 @@ constexpr double turns_in_pass = 1e6; // of loops, for the same reason
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
 std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 
-// Lens points that a work group takes at once, by the memory that it shares (tile_data.glsl). More than four would share
-// little more.
+// Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little.
 std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
     const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
                       of_point = cells * sizeof(std::uint64_t) + lens_kernel::chunk * sizeof(std::uint32_t),
@@ -107,8 +106,8 @@ std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
         std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
 }
 
-// The lens points in an order in which so many of them at a time lie near each other: from side to side of the lens in
-// bands, back and forth. Points without weight fill up the last ones.
+// Sorts lens points so that each group of `points` consecutive ones lies close together: in bands from side to side of
+// the lens, back and forth. Points without weight fill up the last group.
 std::vector<LensSample> in_groups(std::span<const LensSample> lens, std::size_t points) {
     std::vector<LensSample> all(lens.begin(), lens.end());
     const auto [top, bottom] = std::ranges::minmax(all, {}, &LensSample::y);

@@ -6,9 +6,9 @@ float left[points * own];
 
 const uint no_entry = chunk * points;
 
-// Chains up what the lens points show of a chunk, in front of what lies behind, for the owner of each pixel. An entry is
-// the lens point times `chunk`, plus the number in the chunk; nexts[] also has the pixel of the quarter. Begins and ends
-// with a barrier.
+// Chains up what the lens points show of a chunk, in front of what lies behind, for the owner of each pixel. An entry
+// is the lens point times `chunk`, plus the number in the chunk; nexts[] also has the pixel of the quarter. Begins and
+// ends with a barrier.
 void chain_chunk(uint begin) {
     barrier();
     chains[thread()] = no_entry;
@@ -19,7 +19,8 @@ void chain_chunk(uint begin) {
             const ivec2 at = seen_at(places[i], cocs[i], eyes[l]);
             const bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)));
             if (inside && key_of(uppers[i], i) >= front[cell_of(l, at)])
-                nexts[l * chunk + n] = atomicExchange(chains[owner_of(uvec2(at))], l * chunk + n) | (at.y * size + at.x) << 16;
+                nexts[l * chunk + n] = atomicExchange(chains[owner_of(uvec2(at))], l * chunk + n) |
+                                       (at.y * size + at.x) << 16;
         }
     }
     barrier();

@@ -156,7 +156,8 @@ uint64_t torn_at(uint cell, uint axes) {
         const uint s = findLSB(axes), step_ = s == 0 ? 1 : s == 1 ? side : side + 2 * s - 5;
         const uint64_t one = front[cell - step_], other = front[cell + step_];
         const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
-        const float depth_a = depth_in(sample_of(one)), depth_b = depth_in(sample_of(other)), depth = min(depth_a, depth_b);
+        const float depth_a = depth_in(sample_of(one)), depth_b = depth_in(sample_of(other)),
+                    depth = min(depth_a, depth_b);
         if (!is_crack(apart.x, apart.y, depth_a, depth_b) || (farthest != 0UL && depth >= farthest_depth)) continue;
         farthest = depth_a <= depth_b ? one : other;
         farthest_depth = depth;

@@ -29,9 +29,8 @@ struct PlacedView {
 // Several threads may read it at the same time.
 class MatchedView {
 public:
-    // R, G and B, bounded so that one bright pixel does not decide, and the disparity of the surface. The depth
-    // is NaN if the pixel or one beside it shows several surfaces, none or another one, because the colours are mixed
-    // there.
+    // R, G and B, bounded so that one bright pixel does not decide, and the disparity of the surface. The depth is NaN
+    // if the pixel or one beside it shows several surfaces, none or another one, because the colours are mixed there.
     using Pixel = std::array<float, 4>;
 
     // `scale` is R F in pixels of the view. `across` of these, across and down, are one pixel here; everything else

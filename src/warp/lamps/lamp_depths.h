@@ -5,9 +5,9 @@
 // lamp in front of everything around it take the depth of pixels beside them that have the lamp's depth. Pixels of a
 // lamp that strands or bars cross do so, too; nothing around has its depth. silhouettes.h gives back to the lamp the
 // light that has the depth of a strand. If a view has no pixel at the lamp's depth, other views that show as much light
-// at that position give the depth. If all views have the wall's depth, the lamp gets the depth at which its positions in
-// all views agree, unless the wall's depth explains the positions equally well. Pixels that show little of a lamp stay
-// as they are if a pixel beside them shows only the lamp, because silhouettes.h can separate those.
+// at that position give the depth. If all views have the wall's depth, the lamp gets the depth at which its positions
+// in all views agree, unless the wall's depth explains the positions equally well. Pixels that show little of a lamp
+// stay as they are if a pixel beside them shows only the lamp, because silhouettes.h can separate those.
 #pragma once
 
 #include "deep/view_samples.h"

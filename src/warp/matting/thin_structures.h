@@ -126,8 +126,8 @@ struct Mixture {
 // than two pixels of disparity, along rows and along columns.
 bool among_strands(const SamplesAround &samples, int x, int y);
 
-// The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Pixels of disparity: `jump`
-// parts the lamp from what is behind it, `apart` the strands from both. `others` may be null.
+// The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Pixels of
+// disparity: `jump` parts the lamp from what is behind it, `apart` the strands from both. `others` may be null.
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
                                              double apart, const BackgroundFromViews *others);
 

@@ -69,8 +69,7 @@ TEST(ThinStructures, StrandsAreKnownByDepthsThatJump) {
     }
 }
 
-// Whatever the random depth of a pixel, the strands get their share of it; without thin_structures, one of the two depths gets
-// everything.
+// Whatever the random depth of a pixel, strands get their share of it; else one of the two depths gets everything.
 TEST(ThinStructures, StrandsCoverTheirShare) {
     const Strands hair(0.8f);
     const Ldi ldi = hair.separated();
