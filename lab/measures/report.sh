@@ -12,8 +12,8 @@ python3 - <<'END'
 import csv
 
 SHOWN = ["one view, lens normal", "4 peeled layers, lens normal", "accumulated lens views", "distributed ray tracing",
-         "the same, denoised", "centre + 4, lens normal", "centre + 4, lens final", "centre + 4 at 2x, lens normal",
-         "centre + 4 planned, lens normal", "centre + 4, denoised, lens normal"]
+         "denoised ray tracing", "centre + 4, lens normal", "centre + 4, lens final", "centre + 4 at 2x, lens normal",
+         "centre + 4 planned, lens normal", "centre + 4 denoised, lens normal", "centre + 4 denoised at 2x, lens normal"]
 COLUMNS = {"rays": "rays", "seconds": "seconds", "dB": "psnr_tonemapped", "worst": "psnr_worst", "FLIP": "flip",
            "seconds of ray tracing": "equal_error_seconds", "rays of it": "equal_error_rays", "dB gained": "equal_time_db"}
 scenes = {}
