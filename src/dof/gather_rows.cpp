@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "deep/unseen.h"
 #include "dof/border_reach.h"
 #include "dof/lens/beyond/frame_extension.h"
 #include "dof/lens/gather_scene.h"
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -215,7 +215,7 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     const double spread = found.coc * std::max({extent.x, extent.y * lens.pixel_aspect, 1.0});
     // How far a ground continues (fillers.h), and from how far it is seen.
     const double nearer = std::max(found.most_depth - found.least_depth, 0.0);
-    const double goes_on = 1 + std::max(std::numbers::sqrt2 * nearer, found.coc);
+    const double goes_on = std::max(seen_behind(nearer), 1 + found.coc);
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
     // Highlights look at the adjacent cells. Sharpening looks at the noise blocks beside those, and at one more row.

@@ -9,13 +9,40 @@
 
 #include <Imath/ImathVec.h>
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace sparselens {
+
+// How far views saw, the centre view first. `scale`: R F, above 0.
+class Sights {
+public:
+    Sights(std::span<const PlacedView> views, double scale);
+
+    // Whether no view saw through what has this disparity at a place of the centre view: each that looks there shows
+    // something in front of it, nearer by this many pixels of disparity, in that pixel and in those around it, up to
+    // WarpTuning::sight_margin. A pixel of a view that shows nothing was seen through.
+    bool are_hidden(const Imath::V2d &place, double depth, double nearer) const;
+    // By how much 1 / z differs in the centre view within a solid's reach of a place.
+    double relief_at(const Imath::V2d &place) const { return double(relief_.at(place).value_or(0)); }
+
+    const double scale;
+    const Imath::Box2i frame; // of the centre view
+
+private:
+    // A value for each pixel of a view.
+    struct OfPixels {
+        Imath::Box2i display;
+        Grid grid;
+        std::vector<float> values;
+        // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
+        std::optional<float> at(const Imath::V2d &place) const;
+    };
+    std::vector<std::pair<const ViewMapping *, OfPixels>> farthest_; // 1 / z
+    OfPixels relief_;
+};
 
 // Continues surfaces behind nearer ones, where no view could look. Without these samples, a lens point between the views
 // looks past an inner edge, and sees the sky or a lamp there.
@@ -33,48 +60,17 @@ namespace sparselens {
 // Surfaces that continue into a pixel from several sides at about the same depth become one sample: their mean, each
 // weighted by 1 / n. Small lamps, mirrors, glass and volumes do not continue.
 
-// Adds the samples to an LDI that is made of `views`, the centre view first. `scale`: R F, above 0.
-void extend_surfaces(std::span<const PlacedView> views, double scale, Ldi &ldi);
+// Adds the samples to an LDI that is made of the views.
+void extend_surfaces(const Sights &sights, Ldi &ldi);
 
 // Finds which opaque surfaces count as solid for some distance behind their samples (Ldi::solid), so that a lens point
 // between the positions of the views does not look through a gap that no view saw open.
 //
 // The first sample of a pixel that covers half of it or more is WarpTuning::solid_px thick if no view saw through that
-// thickness: every view that looks at the position this much farther away has something nearer there, and in the pixels
-// around. If the surface is smooth within reach, no lens point can look past it, and it gets no solid. A pixel of a
-// view that shows nothing counts as seen through. Mirrors and glass, which have the depth of images, are not solid.
+// thickness. If the surface is smooth within reach, no lens point can look past it, and it gets no solid. Mirrors and
+// glass, which have the depth of images, are not solid.
 
-// Sets Ldi::solid, which stays empty if nothing is solid. `ldi` is made of `views`, the centre view first. `scale`: R
-// F, above 0.
-void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi);
-
-// 1 / z of the farthest thing that each pixel of a view shows; 0: it lets light through to infinity.
-std::vector<float> farthest_in(const ViewSamples &view);
-
-// The least value in a square around each pixel.
-std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius);
-
-// Looks up values of a view by position.
-class FarthestDepth {
-public:
-    FarthestDepth(const ViewSamples &view, std::vector<float> values)
-        : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
-
-    // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
-    std::optional<float> at(const Imath::V2d &place) const {
-        if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
-        const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
-        if (grid_.contains(pixel.x, pixel.y)) return values_[grid_.index(pixel.x, pixel.y)];
-        return display_.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
-    }
-
-private:
-    Imath::Box2i display_;
-    Grid grid_;
-    std::vector<float> values_;
-};
-
-// 1 / z of the farthest thing in a pixel of the view and in those around it, up to WarpTuning::sight_margin.
-FarthestDepth farthest_around(const ViewSamples &view, const std::vector<float> &farthest);
+// Sets Ldi::solid, which stays empty if nothing is solid. The LDI is made of the views.
+void find_solids(const Sights &sights, Ldi &ldi);
 
 } // namespace sparselens

@@ -4,13 +4,12 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/mixed_pixels.h"
+#include "deep/unseen.h"
 #include "dof/tuning.h"
-#include "kernels/surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -54,7 +53,7 @@ std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Kno
 bool goes_on(const Ground &ground, const Ground &other, int n) {
     if (other.depth == unknown) return false;
     const float nearer = other.depth - ground.depth;
-    return nearer > one_surface_px && float(n - 1) < std::numbers::sqrt2_v<float> * nearer;
+    return nearer > one_surface_px && is_seen_behind(n, nearer);
 }
 
 // The pixels of a row or a column, from either end.
@@ -139,7 +138,7 @@ private:
         if (ldi_.pixel(end).size() != 1 || std::ranges::find(rgb_, npos) != rgb_.end()) return false;
         for (const std::size_t pixel : {end, before, behind})
             if (grounds_[pixel].sample == Filler::nothing) return false;
-        return kernels::is_one_surface(grounds_[before].depth, grounds_[end].depth, one_surface_px) &&
+        return is_one_surface(grounds_[before].depth, grounds_[end].depth) &&
                unmix(colour(end), colour(behind), colour(before), mostly_b, GatherTuning::filler_mixed)
                    .has_value();
     }
@@ -168,7 +167,7 @@ bool is_seen(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, const Grou
     if (ground.sample == Filler::nothing) return false;
     for (const std::uint64_t i : ldi.pixel(pixel)) {
         const auto depth = float(disparity(lens, double(ldi.z[i])));
-        if (kernels::is_one_surface(depth, ground.depth, one_surface_px)) return true;
+        if (is_one_surface(depth, ground.depth)) return true;
     }
     return false;
 }
@@ -181,7 +180,7 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, con
     float sum = 0;
     for (const auto &[ground, shown, distance] : sides) {
         if ((ground.sample == Filler::nothing) != nothing) continue;
-        if (!kernels::is_one_surface(ground.depth, nearest.ground.depth, one_surface_px)) continue;
+        if (!is_one_surface(ground.depth, nearest.ground.depth)) continue;
         const float weight = 1 / float(distance);
         const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, shown.sample);
         filler.part[filler.count++] = {shown.sample, std::uint32_t(shown.pixel), weight / coverage};
@@ -268,7 +267,7 @@ bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint6
     const auto depth = [&](std::uint64_t i) { return disparity(lens, double(ldi.z[i])); };
     const auto shows_it = [&](std::size_t p) {
         for (const std::uint64_t i : ldi.pixel(p))
-            if (kernels::is_one_surface<double>(depth(i), depth(sample), one_surface_px)) return true;
+            if (is_one_surface(depth(i), depth(sample))) return true;
         return false;
     };
     const Imath::V2i at = ldi.windows.pixel(pixel);

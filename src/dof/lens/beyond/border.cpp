@@ -2,6 +2,7 @@
 
 #include "base/light.h"
 #include "deep/build.h"
+#include "deep/unseen.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/tuning.h"
 #include "lens/lamp_spread.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "kernels/surface.h"
 #include "lens/lens_looks.h"
 #include "lens/psf.h"
 #include "lens/thin_lens.h"
@@ -16,11 +15,6 @@
 #include <vector>
 
 namespace sparselens {
-
-// Whether two disparities belong to one surface.
-inline bool is_one_surface(double a, double b) {
-    return kernels::is_one_surface<double>(a, b, one_surface_px);
-}
 
 // A sample that continues beyond the frame.
 struct BorderSample {

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "deep/ldi.h"
 #include "deep/packed_rows.h"
+#include "deep/unseen.h"
 #include "dof/lens/beyond/border.h"
 #include "dof/lens/sample_blocks.h"
 

@@ -1,0 +1,47 @@
+// What no view saw, in one rule: a surface goes on where nothing was seen that contradicts it, as far as a lens point
+// may look.
+//
+// - Views looked behind something nearer, and saw less than a lens point between them: extend_surfaces.h (confirmed:
+//   samples of the LDI, and solids).
+// - No view could look: fillers.h (assumed: seen where nothing else is, and hide lamps).
+// - Beyond the frame: frame_extension.h.
+//
+// A surface goes on along rows and columns, from its last pixel. Beside that, something nearer hides it; a surface that
+// ends where nothing is nearer has an outer edge, and does not go on. If surfaces go on into a pixel from several sides,
+// those that are one surface there become one sample: their mean, weighted by 1 / n n pixels from their ends.
+#pragma once
+
+#include "kernels/surface.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <numbers>
+
+namespace sparselens {
+
+// The steps to the right, to the left, down and up.
+inline const std::array<Imath::V2i, 4> sides_of_pixel{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+// How many pixels, along a row or a column, a lens point looks behind the edge of what is nearer by this many pixels of
+// disparity. The edge may run at 45 degrees.
+template <typename Real>
+inline Real seen_behind(Real nearer) {
+    return 1 + std::numbers::sqrt2_v<Real> * nearer;
+}
+// Whether some lens point sees the n-th pixel behind the edge.
+template <typename Real>
+inline bool is_seen_behind(int n, Real nearer) {
+    return Real(n - 1) < std::numbers::sqrt2_v<Real> * nearer;
+}
+
+// The disparity of a surface as far after its end as it has another disparity before it: slopes go on.
+inline double mirrored(double at_end, double before) { return 2 * at_end - before; }
+
+// Whether two disparities belong to one surface.
+template <typename Real>
+inline bool is_one_surface(Real a, Real b) {
+    return kernels::is_one_surface<Real>(a, b, one_surface_px);
+}
+
+} // namespace sparselens
