@@ -5,7 +5,7 @@
 #include "deep/flatten.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"
-#include "dof/gather_beyond.h"
+#include "dof/lens/beyond/frame_extension.h"
 #include "lens/thin_lens.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
-#include "dof/gather_beyond.h"
+#include "dof/lens/beyond/frame_extension.h"
 #include "dof/merge_layers.h"
 #include "dof/selective/selective.h"
 #include "lens/thin_lens.h"

@@ -24,6 +24,7 @@
 #include "lens/lens_looks.h"
 #include "lens/thin_lens.h"
 
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -52,5 +53,21 @@ FrameExtension extend_beyond_frame(const Ldi &ldi, const ThinLens &lens, const L
 FrameExtension extend_beyond_frame(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks,
                                    const Imath::Box2i &frame, const Imath::Box2i &known,
                                    const Imath::V2i &reach, int across = 1, double views_radius = 0);
+
+// Returns gather(ldi, options.lens) of the continued LDI, or of `ldi` itself if options.beyond is not set
+// (dof/methods.h). Pass an Ldi&& if `ldi` may be used up, else a const Ldi&.
+template <typename AnyLdi, typename Options, typename Gather>
+auto gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &window, const Options &options,
+                   const Gather &gather) {
+    if (!options.beyond) return gather(ldi, options.lens);
+    auto by = options.lens;
+    const FrameExtension all = extend_beyond_frame(std::forward<AnyLdi>(ldi), lens, by.looks,
+                                                   options.beyond->frame, by.known.value_or(window),
+                                                   options.beyond->reach, by.across, options.views_radius);
+    by.known = all.known;
+    by.unseen = all.unseen;
+    by.seen = options.beyond->frame;
+    return gather(all.ldi, by);
+}
 
 } // namespace sparselens
