@@ -30,7 +30,6 @@ dof/lens/shadow_search.cpp all_blocks longest_of_many
 dof/lens/shadow_search.h none
 dof/lens/shadow_search.cpp edge
 dof/lens/shadow_search.h beside
-dof/lens/fillers.cpp pixels_at_once
 dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
 dof/lens/tile_plan.h final_points largest_coc normal_points

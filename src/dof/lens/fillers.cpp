@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -23,31 +24,8 @@ constexpr float unknown = -1; // depth of a ground
 struct Ground {
     float depth = unknown;                  // disparity, pixels
     std::uint32_t sample = Filler::nothing; // of the LDI
+    bool is_nothing() const { return sample == Filler::nothing; }
 };
-
-Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens, std::size_t pixel,
-                 bool known) {
-    const auto at_depth = [&](double z, std::uint32_t sample) {
-        return Ground{float(disparity(lens, z)), sample};
-    };
-    std::uint32_t last = Filler::nothing;
-    const double left = for_shares(ldi, alpha_channel, ldi.pixel(pixel), [&](std::uint64_t i, double) {
-        if (alpha_at(ldi, alpha_channel, i) >= half_covered) last = std::uint32_t(i);
-    });
-    if (lets_through(left))
-        return known ? at_depth(std::numeric_limits<double>::infinity(), Filler::nothing) : Ground{};
-    return last == Filler::nothing ? Ground{} : at_depth(double(ldi.z[last]), last);
-}
-
-std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
-    std::vector<Ground> grounds(ldi.windows.pixels());
-    const std::size_t alpha = ldi.alpha();
-    parallel_ranges(grounds.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t pixel = begin; pixel < end; ++pixel)
-            grounds[pixel] = ground_of(ldi, alpha, lens, pixel, known.has(ldi.windows, pixel));
-    });
-    return grounds;
-}
 
 // Whether a ground continues n pixels beyond its end, where the ground is `other`.
 bool goes_on(const Ground &ground, const Ground &other, int n) {
@@ -56,88 +34,95 @@ bool goes_on(const Ground &ground, const Ground &other, int n) {
     return nearer > one_surface_px && is_seen_behind(n, nearer);
 }
 
-// The pixels of a row or a column, from either end.
-struct Line {
-    std::ptrdiff_t first, step;
-    int length;
-    std::size_t pixel(int i) const { return std::size_t(first + i * step); }
+// A side from which a ground continues.
+struct Side {
+    Ground ground;
+    std::size_t shown; // the pixel whose ground it shows
+    int distance;
+    auto order() const { return std::tuple(distance, ground.depth, ground.is_nothing()); }
 };
 
-constexpr std::size_t directions = 4; // in which grounds go on: right, left, down, up
-
-Line line_of(const Windows &windows, std::size_t direction, std::size_t number) {
-    const std::ptrdiff_t width = windows.width(), height = windows.height(), at = std::ptrdiff_t(number);
-    switch (direction) {
-    case 0: return {at * width, 1, int(width)};
-    case 1: return {(at + 1) * width - 1, -1, int(width)};
-    case 2: return {at, width, int(height)};
-    default: return {(height - 1) * width + at, -width, int(height)};
-    }
-}
-
-// For each pixel and direction: how far the pixel is from the end of the ground that continues there; 0: no ground
-// does.
-using Distances = std::vector<std::array<std::uint16_t, directions>>;
-
-// Continues a ground of a line towards the line's end. It stops where it meets the continuation of another ground that
-// is as deep or deeper: the other ground ends nearer to the pixel and continues as far.
-void continue_ground(std::span<const Ground> grounds, const Line &line, int i, std::size_t direction,
-                     Distances &distances) {
-    const Ground &ground = grounds[line.pixel(i)];
-    if (ground.depth == unknown) return;
-    const int most = std::min(line.length - 1 - i, int(std::numeric_limits<std::uint16_t>::max()));
-    for (int n = 1; n <= most; ++n) {
-        const Ground &other = grounds[line.pixel(i + n)];
-        if (!goes_on(ground, other, n)) break;
-        std::uint16_t &distance = distances[line.pixel(i + n)][direction];
-        if (distance == 0)
-            distance = std::uint16_t(n);
-        else if (grounds[line.pixel(i + n - distance)].depth <= ground.depth)
-            break;
-    }
-}
-
-Distances find_distances(std::span<const Ground> grounds, const Windows &windows) {
-    Distances distances(grounds.size());
-    for (std::size_t direction = 0; direction < directions; ++direction) {
-        const int lines = direction < 2 ? windows.height() : windows.width();
-        // Starts with the last grounds of a line, whose ends are nearest to where they continue. The grounds of
-        // adjacent lines lie together in memory.
-        parallel_ranges(std::size_t(lines), 16, [&](std::size_t begin, std::size_t end) {
-            for (int i = line_of(windows, direction, begin).length - 2; i >= 0; --i)
-                for (std::size_t number = begin; number < end; ++number)
-                    continue_ground(grounds, line_of(windows, direction, number), i, direction, distances);
-        });
-    }
-    return distances;
-}
-
-// The sample that a ground shows where it continues.
-struct Shown {
-    std::uint32_t sample; // of the LDI; or Filler::nothing
-    std::size_t pixel;    // that has the sample
-};
-
-// Finds what grounds show where they continue. Where no view unmixed a silhouette, the last pixel of a ground shows a
-// part of what hides the ground.
-class ShownByGrounds {
+class FillerSearch {
 public:
-    ShownByGrounds(const Ldi &ldi, std::span<const Ground> grounds)
-        : ldi_(ldi), grounds_(grounds), alpha_(ldi.alpha()), rgb_(find_rgb(ldi.channels)) {}
-
-    // The Shown of the ground whose last pixel is `end`; `before` precedes it along a row or column, and `behind`,
-    // which hides it, follows.
-    Shown at_end(std::size_t end, std::size_t before, std::size_t behind) const {
-        return is_mixed(end, before, behind) ? Shown{grounds_[before].sample, before}
-                                             : Shown{grounds_[end].sample, end};
+    FillerSearch(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known)
+        : ldi_(ldi), lens_(lens), alpha_(ldi.alpha()), rgb_(find_rgb(ldi.channels)),
+          width_(std::size_t(ldi.windows.width())), grounds_(ldi.windows.pixels()),
+          distances_(grounds_.size()) {
+        parallel_ranges(grounds_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t pixel = begin; pixel < end; ++pixel)
+                grounds_[pixel] = ground_of(pixel, known.has(ldi.windows, pixel));
+        });
+        for (std::size_t k = 0; k < directions; ++k) continue_grounds(k);
     }
-    Shown at_end(std::size_t end) const { return {grounds_[end].sample, end}; }
+    // The filler of a pixel, if it has one.
+    std::optional<Filler> at(std::size_t pixel) const {
+        std::array<Side, directions> all;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < directions; ++k)
+            if (const int n = distances_[pixel][k]; n > 0) {
+                const std::size_t end = pixel - std::size_t(n) * step(k);
+                all[count++] = {grounds_[end], is_mixed(end, k) ? end - step(k) : end, n};
+            }
+        if (count == 0) return {};
+        const std::span<const Side> found = std::span(all).first(count);
+        const Side &nearest = *std::ranges::min_element(found, {}, &Side::order);
+        if (is_seen(pixel, nearest.ground)) return {};
+        return mean_of(pixel, nearest, found);
+    }
 
 private:
-    bool is_mixed(std::size_t end, std::size_t before, std::size_t behind) const {
-        if (ldi_.pixel(end).size() != 1 || std::ranges::find(rgb_, npos) != rgb_.end()) return false;
+    static constexpr std::size_t directions = 4; // in which grounds go on: right, left, down, up
+
+    // From pixel to pixel in a direction.
+    std::size_t step(std::size_t direction) const {
+        return (direction < 2 ? 1 : width_) * (direction % 2 == 0 ? 1 : ~std::size_t{0});
+    }
+    Ground ground_of(std::size_t pixel, bool known) const {
+        std::uint32_t last = Filler::nothing;
+        const double left = for_shares(ldi_, alpha_, ldi_.pixel(pixel), [&](std::uint64_t i, double) {
+            if (alpha_at(ldi_, alpha_, i) >= half_covered) last = std::uint32_t(i);
+        });
+        if (lets_through(left)) return {known ? 0 : unknown, Filler::nothing};
+        return last == Filler::nothing ? Ground{} : Ground{depth_of(last), last};
+    }
+    // Starts with the last grounds of a line, whose ends are nearest to where they continue. The grounds of adjacent
+    // lines lie together in memory.
+    void continue_grounds(std::size_t direction) {
+        const bool along_rows = direction < 2;
+        const std::size_t length = along_rows ? width_ : grounds_.size() / width_;
+        const auto pixel = [&](std::size_t line, std::size_t i) { // the i-th from the line's end
+            const std::size_t at = direction % 2 == 0 ? length - 1 - i : i;
+            return along_rows ? line * width_ + at : at * width_ + line;
+        };
+        parallel_ranges(grounds_.size() / length, 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = 1; i < length; ++i)
+                for (std::size_t line = begin; line < end; ++line)
+                    continue_ground(pixel(line, i), direction, int(i));
+        });
+    }
+    // Continues a ground by at most `most` pixels. It stops where it meets the continuation of another ground that is
+    // as deep or deeper: the other ground ends nearer to the pixel and continues as far.
+    void continue_ground(std::size_t end, std::size_t direction, int most) {
+        const Ground &ground = grounds_[end];
+        if (ground.depth == unknown) return;
+        std::size_t pixel = end;
+        for (int n = 1; n <= std::min(most, int(std::numeric_limits<std::uint16_t>::max())); ++n) {
+            pixel += step(direction);
+            if (!goes_on(ground, grounds_[pixel], n)) break;
+            std::uint16_t &distance = distances_[pixel][direction];
+            if (distance == 0)
+                distance = std::uint16_t(n);
+            else if (grounds_[pixel - distance * step(direction)].depth <= ground.depth)
+                break;
+        }
+    }
+    // Whether the last pixel of a ground shows a part of what hides it: no view unmixed the silhouette.
+    bool is_mixed(std::size_t end, std::size_t direction) const {
+        const std::size_t before = end - step(direction), behind = end + step(direction);
+        if (before >= grounds_.size() || (direction < 2 && before / width_ != end / width_)) return false;
+        if (ldi_.pixel(end).size() != 1 || !all_found(rgb_)) return false;
         for (const std::size_t pixel : {end, before, behind})
-            if (grounds_[pixel].sample == Filler::nothing) return false;
+            if (grounds_[pixel].is_nothing()) return false;
         return is_one_surface(grounds_[before].depth, grounds_[end].depth) &&
                unmix(colour(end), colour(behind), colour(before), mostly_b, GatherTuning::filler_mixed)
                    .has_value();
@@ -147,77 +132,51 @@ private:
         const auto value = [&](std::size_t k) { return double(ldi_.values[rgb_[k]][i]); };
         return Imath::V3d(value(0), value(1), value(2)) / double(alpha_at(ldi_, alpha_, i));
     }
+    float depth_of(std::uint64_t sample) const { return float(disparity(lens_, double(ldi_.z[sample]))); }
+    // Whether the pixel holds a sample of the surface that the ground belongs to.
+    bool is_seen(std::size_t pixel, const Ground &ground) const {
+        if (ground.is_nothing()) return false;
+        for (const std::uint64_t i : ldi_.pixel(pixel))
+            if (is_one_surface(depth_of(i), ground.depth)) return true;
+        return false;
+    }
+    Filler mean_of(std::size_t pixel, const Side &nearest, std::span<const Side> all) const {
+        const bool nothing = nearest.ground.is_nothing();
+        Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
+        if (!nothing) filler.z = ldi_.z[nearest.ground.sample];
+        float sum = 0;
+        for (const auto &[ground, shown, distance] : all) {
+            if (ground.is_nothing() != nothing) continue;
+            if (!is_one_surface(ground.depth, nearest.ground.depth)) continue;
+            const std::uint32_t sample = grounds_[shown].sample;
+            const float weight = 1 / float(distance), coverage = nothing ? 1 : alpha_at(ldi_, alpha_, sample);
+            filler.part[filler.count++] = {sample, std::uint32_t(shown), weight / coverage};
+            sum += weight;
+        }
+        for (Filler::Part &part : filler.part) part.share /= sum;
+        return filler;
+    }
 
     const Ldi &ldi_;
-    std::span<const Ground> grounds_;
+    const ThinLens &lens_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
+    std::size_t width_;
+    std::vector<Ground> grounds_; // [pixel]
+    // For each pixel and direction: how far the pixel is from the end of the ground that continues there; 0: no ground
+    // does.
+    std::vector<std::array<std::uint16_t, directions>> distances_;
 };
-
-// A side from which a ground continues.
-struct Side {
-    Ground ground;
-    Shown shown;
-    int distance;
-    auto order() const { return std::tuple(distance, ground.depth, ground.sample == Filler::nothing); }
-};
-
-// Whether the pixel holds a sample of the surface that the ground belongs to.
-bool is_seen(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, const Ground &ground) {
-    if (ground.sample == Filler::nothing) return false;
-    for (const std::uint64_t i : ldi.pixel(pixel)) {
-        const auto depth = float(disparity(lens, double(ldi.z[i])));
-        if (is_one_surface(depth, ground.depth)) return true;
-    }
-    return false;
-}
-
-Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, const Side &nearest,
-               std::span<const Side> sides) {
-    const bool nothing = nearest.ground.sample == Filler::nothing;
-    Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
-    if (!nothing) filler.z = ldi.z[nearest.ground.sample];
-    float sum = 0;
-    for (const auto &[ground, shown, distance] : sides) {
-        if ((ground.sample == Filler::nothing) != nothing) continue;
-        if (!is_one_surface(ground.depth, nearest.ground.depth)) continue;
-        const float weight = 1 / float(distance);
-        const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, shown.sample);
-        filler.part[filler.count++] = {shown.sample, std::uint32_t(shown.pixel), weight / coverage};
-        sum += weight;
-    }
-    for (Filler::Part &part : filler.part) part.share /= sum;
-    return filler;
-}
 
 } // namespace
 
 LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
-    const std::vector<Ground> grounds = find_grounds(ldi, lens, known);
-    const Distances distances = find_distances(grounds, ldi.windows);
-    const std::size_t alpha = ldi.alpha();
-    const std::size_t width = std::size_t(ldi.windows.width());
-    const std::array<std::size_t, directions> step{1, 0 - std::size_t{1}, width, 0 - width};
-    const ShownByGrounds shown(ldi, grounds);
+    const FillerSearch search(ldi, lens, known);
+    const auto width = std::size_t(ldi.windows.width());
     std::vector<std::vector<Filler>> rows(std::size_t(ldi.windows.height()));
     parallel_for(rows.size(), [&](std::size_t row) {
-        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel) {
-            std::array<Side, directions> sides;
-            std::size_t count = 0;
-            for (std::size_t k = 0; k < directions; ++k)
-                if (const int n = distances[pixel][k]; n > 0) {
-                    const std::size_t end = pixel - std::size_t(n) * step[k], before = end - step[k];
-                    const bool has_before = before < grounds.size() && (k > 1 || before / width == row);
-                    sides[count++] = {
-                        grounds[end],
-                        has_before ? shown.at_end(end, before, end + step[k]) : shown.at_end(end), n};
-                }
-            if (count == 0) continue;
-            const std::span<const Side> found = std::span(sides).first(count);
-            const Side &nearest = *std::ranges::min_element(found, {}, &Side::order);
-            if (!is_seen(ldi, lens, pixel, nearest.ground))
-                rows[row].push_back(mean_of(ldi, alpha, pixel, nearest, found));
-        }
+        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
+            if (const auto filler = search.at(pixel)) rows[row].push_back(*filler);
     });
     std::vector<std::size_t> begin{0};
     for (const std::vector<Filler> &row : rows) begin.push_back(begin.back() + row.size());
@@ -230,37 +189,27 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
 
 namespace {
 
-PlacedSample placed(const ThinLens &lens, const Filler &filler, int x, int y, std::uint32_t source) {
-    return {float(x) + 0.5f,
-            float(y) + 0.5f,
-            float(circle_of_confusion(lens, double(filler.z))),
-            float(disparity(lens, double(filler.z))),
-            1,
-            source};
+// Places the fillers for which is_placed(number) is true; `source` is the number.
+template <typename IsPlaced>
+BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
+                      const IsPlaced &is_placed) {
+    std::vector<std::uint32_t> of_pixel(ldi.windows.pixels(), 0); // the number, plus 1
+    for (std::uint32_t f = 0; f < fillers.size(); ++f)
+        if (is_placed(f)) of_pixel[fillers[f].pixel] = f + 1;
+    const auto at = [&](int x, int y) {
+        return of_pixel[std::size_t(y) * std::size_t(ldi.windows.width()) + std::size_t(x)];
+    };
+    const auto count = [&](int x, int y) { return at(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
+    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
+        if (!at(x, y)) return;
+        const Filler &filler = fillers[at(x, y) - 1];
+        const double z = double(filler.z);
+        found.push_back({float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, z)),
+                         float(disparity(lens, z)), 1,
+                         filler.is_nothing() ? BlockedSamples::background : at(x, y) - 1});
+    };
+    return make_blocks(ldi.windows, count, place);
 }
-
-// Finds the filler of a pixel.
-class FillersByPixel {
-public:
-    FillersByPixel(std::span<const Filler> fillers, const Windows &windows)
-        : fillers_(fillers), width_(std::size_t(windows.width())),
-          begin_((windows.pixels() + pixels_at_once - 1) / pixels_at_once + 1, fillers.size()) {
-        for (std::size_t f = fillers.size(); f-- > 0;) begin_[fillers[f].pixel / pixels_at_once] = f;
-        for (std::size_t i = begin_.size() - 1; i-- > 0;) begin_[i] = std::min(begin_[i], begin_[i + 1]);
-    }
-    const Filler *at(int x, int y) const {
-        const std::size_t pixel = std::size_t(y) * width_ + std::size_t(x);
-        for (std::size_t f = begin_[pixel / pixels_at_once]; f < fillers_.size(); ++f)
-            if (fillers_[f].pixel >= pixel) return fillers_[f].pixel == pixel ? &fillers_[f] : nullptr;
-        return nullptr;
-    }
-
-private:
-    static constexpr std::size_t pixels_at_once = 8;
-    std::span<const Filler> fillers_;
-    std::size_t width_;
-    std::vector<std::size_t> begin_; // of each `pixels_at_once` consecutive pixels; and the end
-};
 
 // Whether a sample of a pixel is one surface with samples of most pixels in the square of three by three around it.
 bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint64_t sample) {
@@ -284,68 +233,46 @@ bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint6
 } // namespace
 
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                            const BlockedSamples &samples, const SampleColours &colours) {
+                            const BlockedSamples &samples, const SampleColours &colours,
+                            const std::optional<std::span<const std::uint32_t>> &highlights) {
     if (fillers.empty()) return {};
-    const FillersByPixel by_pixel(fillers, ldi.windows);
-    const auto is_there = [&](int x, int y) {
-        return by_pixel.at(x, y) ? SampleCounts{1, 1} : SampleCounts{};
-    };
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
-        if (const Filler *f = by_pixel.at(x, y))
-            found.push_back(
-                placed(lens, *f, x, y,
-                       f->is_nothing() ? BlockedSamples::background : std::uint32_t(f - fillers.data())));
-    };
-    FillerSamples result{make_blocks(ldi.windows, is_there, place), {}};
+    FillerSamples result{placed(ldi, lens, fillers, [](std::uint32_t) { return true; }), {}, {}};
     const std::size_t count = result.samples.count();
     result.colours = {colours.groups, count, LargeArray<float>(colours.groups * count * 4, 0.0f)};
+    const auto place = [&](const Filler::Part &part) {
+        return place_of(samples, ldi, part.pixel, part.sample);
+    };
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (result.samples.source[i] == BlockedSamples::background) continue;
             for (const Filler::Part &part : fillers[result.samples.source[i]].parts()) {
-                const std::uint32_t from = place_of(samples, ldi, part.pixel, part.sample);
+                const std::uint32_t from = place(part);
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k)
                     result.colours.at(k, i) += part.share * colours.at(k, from);
             }
         }
     });
-    return result;
-}
-
-BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                                    const BlockedSamples &samples,
-                                    std::span<const std::uint32_t> highlights) {
+    if (!highlights) return result;
     std::vector<char> hides(fillers.size());
     parallel_ranges(fillers.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        const auto hides_lamps = [&](const Filler::Part &part) {
+            return is_wide(ldi, lens, part.pixel, part.sample) &&
+                   !std::ranges::binary_search(*highlights, place(part));
+        };
         for (std::size_t f = begin; f < end; ++f)
-            hides[f] = !fillers[f].is_nothing() &&
-                       std::ranges::any_of(fillers[f].parts(), [&](const Filler::Part &part) {
-                           return is_wide(ldi, lens, part.pixel, part.sample) &&
-                                  !std::ranges::binary_search(
-                                      highlights, place_of(samples, ldi, part.pixel, part.sample));
-                       });
+            hides[f] = !fillers[f].is_nothing() && std::ranges::any_of(fillers[f].parts(), hides_lamps);
     });
-    if (std::ranges::find(hides, true) == hides.end()) return {};
-    const FillersByPixel by_pixel(fillers, ldi.windows);
-    const auto hiding_at = [&](int x, int y) {
-        const Filler *f = by_pixel.at(x, y);
-        return f && hides[std::size_t(f - fillers.data())] ? f : nullptr;
-    };
-    const auto is_there = [&](int x, int y) { return hiding_at(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
-        if (const Filler *f = hiding_at(x, y))
-            found.push_back(placed(lens, *f, x, y, std::uint32_t(f - fillers.data())));
-    };
-    BlockedSamples hiding = make_blocks(ldi.windows, is_there, place);
+    BlockedSamples &hiding = result.hiding =
+        placed(ldi, lens, fillers, [&](std::uint32_t f) { return hides[f]; });
     hiding.named.resize(hiding.count());
     parallel_ranges(hiding.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const Filler &filler = fillers[hiding.source[n]];
             hiding.source[n] = std::uint32_t(ldi.pixel(filler.pixel).front());
-            hiding.named[n] = place_of(samples, ldi, filler.part[0].pixel, filler.part[0].sample);
+            hiding.named[n] = place(filler.part[0]);
         }
     });
-    return hiding;
+    return result;
 }
 
 } // namespace sparselens

@@ -26,6 +26,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,24 +53,25 @@ struct Filler {
 // pixels.
 LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
-// Fillers as the lens gather needs them: in blocks, with their colours; and those that hide lamps.
+// Fillers as the lens gather needs them: in blocks.
 struct FillerSamples {
     BlockedSamples samples; // `source` is the number of the filler, or `background` if it is nothing
     SampleColours colours;
+    // The ones that hide lamps (highlight_shadows.h), once more. `source` is the front sample of the pixel, and `named` the
+    // sample of the picture that the filler shows.
+    BlockedSamples hiding;
 };
 
 // `samples`, `colours`: of the LDI that the fillers belong to. The light that highlights spread is no longer in the
-// colours, so no lamp continues behind anything.
+// colours, so no lamp continues behind anything. `highlights`: as in Highlights::sample; if it is not set, there are no
+// lamps to hide.
+//
+// Views show a surface as far as something nearer hides the rest. A lens point that looks behind the nearer thing would
+// see lamps beside the surface, but the surface may continue there. So its filler hides lamps. This holds if the
+// ground, in the last pixel that shows it, is one surface with most of the three by three pixels around: hair is
+// thinner, and covers less than its pixels show. It does not hold if the ground is a highlight.
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                            const BlockedSamples &samples, const SampleColours &colours);
-
-// Returns the fillers that hide lamps (highlight_shadows.h). Views show a surface as far as something nearer hides the
-// rest. A lens point that looks behind the nearer thing would see lamps beside the surface, but the surface may continue
-// there. So its filler hides lamps. This holds if the ground, in the last pixel that shows it, is one surface with most
-// of the three by three pixels around: hair is thinner, and covers less than its pixels show. It does not hold if the
-// ground is a highlight. `samples` and `highlights` are as in Highlights::sample. The result's `source` is the front
-// sample of the pixel, and `named` the one of `samples` that the filler shows.
-BlockedSamples place_hiding_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                                    const BlockedSamples &samples, std::span<const std::uint32_t> highlights);
+                            const BlockedSamples &samples, const SampleColours &colours,
+                            const std::optional<std::span<const std::uint32_t>> &highlights = {});
 
 } // namespace sparselens

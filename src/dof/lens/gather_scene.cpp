@@ -84,13 +84,13 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     LargeArray<Filler> fillers = find_fillers(ldi, scene.lens, scene.known);
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
-    if (treat())
-        scene.hiding = place_hiding_fillers(ldi, scene.lens, fillers, samples, scene.highlights.sample);
-    optics.bend(scene.hiding);
+    std::optional<std::span<const std::uint32_t>> highlights;
+    if (treat()) highlights = scene.highlights.sample;
     scene.solids = place_solids(ldi, scene.lens, samples);
-    optics.bend(scene.solids);
-    scene.fillers = place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours);
-    optics.bend(scene.fillers.samples);
+    scene.fillers =
+        place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours, highlights);
+    for (BlockedSamples *some : {&scene.solids, &scene.fillers.samples, &scene.fillers.hiding})
+        optics.bend(*some);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
                                 {samples.x, samples.y, samples.hiding_coc(), samples.upper, samples.source});

@@ -99,7 +99,6 @@ struct GatherScene {
     FillerSamples fillers;
     PlacedFacets facets;
     BlockedSamples solids = {};             // place_solids()
-    BlockedSamples hiding = {};             // place_hiding_fillers(): not seen, they only hide lamps
     std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene: its LDI, with values of A alone
 
     // The cat-eye if pixels see through only some lens points, else null.

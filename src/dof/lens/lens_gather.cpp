@@ -52,7 +52,7 @@ struct SceneFootprints {
     ShadowLists shadows;
     SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
         : samples(*scene.ldi, scene.samples, links_of(scene, of_highlights)),
-          solids(*scene.ldi, scene.solids), hiding(*scene.ldi, scene.hiding),
+          solids(*scene.ldi, scene.solids), hiding(*scene.ldi, scene.fillers.hiding),
           shadows(of_highlights.highlights, of_highlights.samples) {}
     static std::optional<Links> links_of(const GatherScene &scene, const GatherScene &of_highlights) {
         if (of_highlights.highlights.sample.empty()) return {}; // nothing is shadowed
@@ -61,7 +61,7 @@ struct SceneFootprints {
     CasterSets casters(const GatherScene &scene, float across = 1, const Imath::V2f &corner = {0, 0}) const {
         return {{scene.samples, samples, across, corner},
                 {scene.solids, solids, across, corner},
-                {scene.hiding, hiding, across, corner}};
+                {scene.fillers.hiding, hiding, across, corner}};
     }
 };
 

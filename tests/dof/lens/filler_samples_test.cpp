@@ -58,7 +58,7 @@ TEST(HidingFillers, AreNotThoseOfLamps) {
     const BlockedLdi blocked(ldi, lens);
     const LargeArray<Filler> fillers = find_fillers(ldi, lens, ldi.windows.data);
     const auto hiding = [&](std::span<const std::uint32_t> highlights) {
-        return place_hiding_fillers(ldi, lens, fillers, blocked.samples, highlights).count();
+        return place_fillers(ldi, lens, fillers, blocked.samples, blocked.colours, highlights).hiding.count();
     };
     constexpr int rows = 10, board = 6;
     std::vector<std::uint32_t> wall;
