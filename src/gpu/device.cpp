@@ -1,5 +1,5 @@
-// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. Each
-// submission waits for a fence, which orders what it wrote before everything that comes later.
+// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. What is to be
+// copied to the device waits there for the next submission. Each submission waits for a fence.
 
 #include "gpu/device.h"
 
@@ -17,10 +17,15 @@
 
 namespace sparselens::gpu {
 
+using Copies = std::map<VkBuffer, std::vector<vk::BufferCopy>>;
+
 // The Vulkan parts of a Device, its buffers and its programs.
 struct Buffer::Memory {
     vk::raii::DeviceMemory memory;
     vk::raii::Buffer buffer;
+    Copies &waiting; // of all buffers
+
+    ~Memory() { waiting.erase(*buffer); }
 };
 
 struct Program::Pipeline {
@@ -39,35 +44,55 @@ struct Device::Vulkan {
     vk::raii::Queue queue;
     vk::raii::CommandPool commands;
     vk::PhysicalDeviceMemoryProperties memories;
-    const Watch &watch;
     double tick_ms = 0;                               // of the device's clock; 0: it has none
     std::optional<vk::raii::QueryPool> begin_and_end; // of a program, in ticks
+    Copies waiting;                                   // from the staging buffer
+    std::size_t filled = 0;                           // bytes of it
     std::unique_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
+    std::byte *staged = nullptr;                      // its bytes as this process sees them
     Progress times;
 
     Vulkan(const DeviceInfo &info, const Watch &watch);
 
-    void ask_watch() const; // throws the result that it gives for the next call
     // Allocates in the first kind of memory that has the best of these sets of properties.
     std::unique_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
-                                             std::initializer_list<vk::MemoryPropertyFlags> best_first) const;
-    const Buffer::Memory &staged();
+                                             std::initializer_list<vk::MemoryPropertyFlags> best_first);
+    const vk::raii::Buffer &staging_buffer();
     double ticked_ms() const; // of the last program
 
-    // Submits the commands that record(command buffer) records, and waits until they are done.
+    // Submits the copies that wait, then the commands that record(command buffer) records, and waits until they are
+    // done.
     template <typename Record>
-    void submit(const Record &record) const {
-        ask_watch();
+    void submit(const Record &record) {
         const vk::raii::CommandBuffers buffers(
             device, vk::CommandBufferAllocateInfo(*commands, vk::CommandBufferLevel::ePrimary, 1));
         const vk::raii::CommandBuffer &command = buffers.front();
         command.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+        for (const auto &[to, copies] : waiting) command.copyBuffer(*staging->buffer, vk::Buffer(to), copies);
+        order(command);
         record(command);
+        order(command);
         command.end();
         const vk::raii::Fence done(device, vk::FenceCreateInfo());
         queue.submit(vk::SubmitInfo({}, {}, *command), *done);
         while (device.waitForFences(*done, true, ~std::uint64_t{0}) == vk::Result::eTimeout) {
         }
+        waiting.clear();
+        filled = 0;
+    }
+
+private:
+    // What comes later sees what was written before.
+    static void order(const vk::raii::CommandBuffer &command) {
+        using Stage = vk::PipelineStageFlagBits;
+        using Access = vk::AccessFlagBits;
+        constexpr auto device_works = Stage::eComputeShader | Stage::eTransfer;
+        command.pipelineBarrier(device_works, device_works | Stage::eHost, {},
+                                vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
+                                                  Access::eShaderRead | Access::eShaderWrite |
+                                                      Access::eTransferRead | Access::eTransferWrite |
+                                                      Access::eHostRead),
+                                {}, {});
     }
 };
 
@@ -79,7 +104,7 @@ auto guarded(const DeviceInfo &info, const Work &work) {
     } catch (const vk::DeviceLostError &) {
         throw DeviceFailed(info.name + " was lost");
     } catch (const vk::OutOfDeviceMemoryError &) {
-        throw DeviceFailed(info.name + " has not enough memory");
+        throw DeviceFull(info.name + " has not enough memory");
     } catch (const vk::OutOfHostMemoryError &) {
         throw DeviceFailed(info.name + ": its driver found not enough memory");
     } catch (const std::exception &error) { // Vulkan's other errors, and a missing loader
@@ -118,29 +143,18 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, st
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-// Throws Vulkan-Hpp's exception for a result. Vulkan-Hpp's own function for this has moved between namespaces.
-[[noreturn]] void throw_as_asked(vk::Result result) {
-    constexpr const char *why = "as the test asked";
-    switch (result) {
-    case vk::Result::eErrorDeviceLost: throw vk::DeviceLostError(why);
-    case vk::Result::eErrorOutOfDeviceMemory: throw vk::OutOfDeviceMemoryError(why);
-    case vk::Result::eErrorOutOfHostMemory: throw vk::OutOfHostMemoryError(why);
-    default: throw vk::SystemError(vk::make_error_code(result), why);
-    }
-}
-
 } // namespace
 
 Program::Program(std::unique_ptr<Pipeline> pipeline) : pipeline_(std::move(pipeline)) {}
 Program::Program(Program &&) noexcept = default;
 Program::~Program() = default;
 
-Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch_)
-    : instance(watch_.validation ? &watch_.validation : nullptr),
+Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch)
+    : instance(watch.validation ? &watch.validation : nullptr),
       physical(std::move(vk::raii::PhysicalDevices(instance.instance).at(info.index))),
       family(compute_family(physical)), device(make_device(physical, family)), queue(device, family, 0),
       commands(device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, family)),
-      memories(physical.getMemoryProperties()), watch(watch_) {
+      memories(physical.getMemoryProperties()) {
     if (physical.getQueueFamilyProperties()[family].timestampValidBits < 64) return; // ticks may wrap round
     tick_ms = double(physical.getProperties().limits.timestampPeriod) * 1e-6;
     begin_and_end.emplace(device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2));
@@ -152,10 +166,6 @@ double Device::Vulkan::ticked_ms() const {
         **begin_and_end, 0, 2, sizeof(ticks), ticks.data(), sizeof(ticks[0]),
         vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait, *device.getDispatcher());
     return found == vk::Result::eSuccess ? double(ticks[1] - ticks[0]) * tick_ms : 0;
-}
-
-void Device::Vulkan::ask_watch() const {
-    if (const int result = watch.fails ? watch.fails() : 0) throw_as_asked(vk::Result(result));
 }
 
 Device::Device(const DeviceInfo &info, const Watch &watch) : info_(info), watch_(watch) {
@@ -209,7 +219,7 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
         const auto record = [&](const vk::raii::CommandBuffer &command) {
             constexpr auto compute = vk::PipelineBindPoint::eCompute;
             if (clock) command.resetQueryPool(**clock, 0, 2);
-            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, **clock, 0);
+            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, **clock, 0);
             command.bindPipeline(compute, *what.pipeline);
             command.bindDescriptorSets(compute, *what.layout, 0, *sets.front(), {});
             if (!push.empty())
@@ -217,11 +227,7 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
                     *what.layout, vk::ShaderStageFlagBits::eCompute, 0,
                     vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
             command.dispatch(groups[0], groups[1], groups[2]);
-            using Access = vk::AccessFlagBits;
-            using Stage = vk::PipelineStageFlagBits;
-            const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite);
-            command.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, written, {}, {});
-            if (clock) command.writeTimestamp(Stage::eBottomOfPipe, **clock, 1);
+            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, **clock, 1);
         };
         std::optional<Timed> waited;
         if (!clock) waited.emplace(vulkan_->times, what.name);
@@ -239,41 +245,6 @@ constexpr std::size_t staging_bytes = std::size_t{16} << 20;
 using Property = vk::MemoryPropertyFlagBits;
 using Usage = vk::BufferUsageFlagBits;
 
-// The staging buffer's bytes as this process sees them.
-class Mapped {
-public:
-    explicit Mapped(const vk::raii::DeviceMemory &memory)
-        : memory_(memory), at_(static_cast<std::byte *>(memory.mapMemory(0, staging_bytes))) {}
-    ~Mapped() { memory_.unmapMemory(); }
-    Mapped(const Mapped &) = delete;
-    Mapped &operator=(const Mapped &) = delete;
-    std::byte *at() const { return at_; }
-
-private:
-    const vk::raii::DeviceMemory &memory_;
-    std::byte *at_;
-};
-
-// Makes the written data visible to later reads of the device and to the host.
-void finish_transfer(const vk::raii::CommandBuffer &command) {
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    command.pipelineBarrier(
-        Stage::eTransfer, Stage::eHost | Stage::eComputeShader | Stage::eTransfer, {},
-        vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead | Access::eShaderRead |
-                                                      Access::eShaderWrite | Access::eTransferRead),
-        {}, {});
-}
-
-void begin_transfer(const vk::raii::CommandBuffer &command) {
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    command.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
-                            vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
-                                              Access::eTransferRead | Access::eTransferWrite),
-                            {}, {});
-}
-
 } // namespace
 
 Buffer::Buffer(std::unique_ptr<Memory> memory, std::size_t bytes)
@@ -284,8 +255,7 @@ Buffer::~Buffer() = default;
 
 std::unique_ptr<Buffer::Memory>
 Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
-                         std::initializer_list<vk::MemoryPropertyFlags> best_first) const {
-    ask_watch();
+                         std::initializer_list<vk::MemoryPropertyFlags> best_first) {
     vk::raii::Buffer buffer(device, vk::BufferCreateInfo({}, bytes, usage));
     const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
     for (const vk::MemoryPropertyFlags wanted : best_first)
@@ -294,17 +264,19 @@ Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
             if ((memories.memoryTypes[type].propertyFlags & wanted) != wanted) continue;
             vk::raii::DeviceMemory memory(device, vk::MemoryAllocateInfo(needs.size, type));
             buffer.bindMemory(*memory, 0);
-            return std::make_unique<Buffer::Memory>(Buffer::Memory{std::move(memory), std::move(buffer)});
+            return std::unique_ptr<Buffer::Memory>(
+                new Buffer::Memory{std::move(memory), std::move(buffer), waiting});
         }
     throw vk::OutOfDeviceMemoryError("no memory of the kind that is needed");
 }
 
-const Buffer::Memory &Device::Vulkan::staged() {
+const vk::raii::Buffer &Device::Vulkan::staging_buffer() {
     if (!staging)
         staging = allocate(staging_bytes, Usage::eTransferSrc | Usage::eTransferDst,
                            {Property::eHostVisible | Property::eHostCoherent | Property::eHostCached,
                             Property::eHostVisible | Property::eHostCoherent});
-    return *staging;
+    if (!staged) staged = static_cast<std::byte *>(staging->memory.mapMemory(0, staging_bytes));
+    return staging->buffer;
 }
 
 std::size_t Device::largest_buffer() const {
@@ -332,9 +304,7 @@ Buffer Device::buffer(std::size_t bytes) {
 void Device::fill(Buffer &buffer, std::uint32_t word) {
     guarded(info_, [&] {
         vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-            begin_transfer(command);
             command.fillBuffer(*buffer.memory_->buffer, 0, VK_WHOLE_SIZE, word);
-            finish_transfer(command);
         });
     });
 }
@@ -347,50 +317,33 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::size_t at)
 void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
                     std::size_t at) {
     if (ranges.empty()) return;
-    const auto copy = [&] {
-        const Mapped staging(vulkan_->staged().memory);
-        std::vector<vk::BufferCopy> copies;
-        std::size_t filled = 0;
-        const auto submit = [&] {
-            if (copies.empty()) return;
-            vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                command.copyBuffer(*vulkan_->staged().buffer, *to.memory_->buffer, copies);
-                finish_transfer(command);
-            });
-            copies.clear();
-            filled = 0;
-        };
+    const Timed uploading(vulkan_->times, "upload");
+    guarded(info_, [&] {
+        vulkan_->staging_buffer();
         for (auto [begin, end] : ranges)
             while (begin < end) {
-                const std::size_t piece = std::min(staging_bytes - filled, end - begin);
-                std::memcpy(staging.at() + filled, from.data() + begin, piece);
-                copies.emplace_back(filled, at + begin, piece);
+                if (vulkan_->filled == staging_bytes) vulkan_->submit([](const auto &) {});
+                const std::size_t piece = std::min(staging_bytes - vulkan_->filled, end - begin);
+                std::memcpy(vulkan_->staged + vulkan_->filled, from.data() + begin, piece);
+                vulkan_->waiting[*to.memory_->buffer].emplace_back(vulkan_->filled, at + begin, piece);
                 begin += piece;
-                filled += piece;
-                if (filled == staging_bytes) submit();
+                vulkan_->filled += piece;
             }
-        submit();
-    };
-    const Timed uploading(vulkan_->times, "upload");
-    guarded(info_, copy);
+    });
 }
 
 void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t at) {
-    const auto copy = [&] {
-        const Buffer::Memory &staged = vulkan_->staged();
+    const Timed downloading(vulkan_->times, "download");
+    guarded(info_, [&] {
+        const vk::raii::Buffer &staging = vulkan_->staging_buffer();
         for (std::size_t done = 0; done < to.size(); done += staging_bytes) {
             const std::size_t piece = std::min(staging_bytes, to.size() - done);
             vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                begin_transfer(command);
-                command.copyBuffer(*from.memory_->buffer, *staged.buffer,
-                                   vk::BufferCopy(at + done, 0, piece));
-                finish_transfer(command);
+                command.copyBuffer(*from.memory_->buffer, *staging, vk::BufferCopy(at + done, 0, piece));
             });
-            std::memcpy(to.data() + done, Mapped(staged.memory).at(), piece);
+            std::memcpy(to.data() + done, vulkan_->staged, piece);
         }
-    };
-    const Timed downloading(vulkan_->times, "download");
-    guarded(info_, copy);
+    });
 }
 
 } // namespace sparselens::gpu

@@ -1,4 +1,5 @@
-// A device that computes: buffers in its memory, programs, and runs of programs. Calls return when the device is done.
+// A device that computes: buffers in its memory, programs, and runs of programs. Calls return when the device is done;
+// what is uploaded goes to the device with the next call that needs it.
 //
 // A failure of the device throws DeviceFailed; the caller can then do the same work on the CPU.
 #pragma once
@@ -22,11 +23,13 @@ struct DeviceFailed : Error {
     using Error::Error;
 };
 
-// Hooks and limits for tests.
+// It has no memory left; less work at once may need less.
+struct DeviceFull : DeviceFailed {
+    using DeviceFailed::DeviceFailed;
+};
+
+// Limits for tests, and who hears of mistakes.
 struct Watch {
-    // Called before memory is allocated and before work is submitted. A result other than 0 is taken as the result of
-    // the Vulkan call (VkResult).
-    std::function<int()> fails = {};
     // if set, receives the validation layer's messages
     std::function<void(const std::string &)> validation = {};
     std::size_t largest_buffer = ~std::size_t{0}; // bytes, if the device allows as many

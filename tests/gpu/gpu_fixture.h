@@ -2,10 +2,13 @@
 // layer is not installed, a test that asks for it still runs, and then says that it ran without validation.
 #pragma once
 
+#include "base/progress.h"
 #include "gpu/device.h"
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,16 +32,24 @@ protected:
     }
 
     Watch watch() {
+        if (!validates) return {};
         unwatched = !has_validation();
         if (unwatched) return {};
         return {.validation = [this](const std::string &text) { said.push_back(text); }};
     }
 
+    // Works with a device that it opens, compares the result with the CPU's, and returns the device's report.
+    using Work = std::function<DeviceReport()>;
+    // Runs the work again and again: each time, Vulkan fails from a later call on.
+    void expect_bears_failures(const Work &work);
+    // Runs it on a device that has so many MB of memory.
+    DeviceReport with_memory(std::size_t mb, const Work &work);
+
     std::optional<DeviceInfo> info;
     std::vector<std::string> said;
 
 private:
-    bool unwatched = false;
+    bool unwatched = false, validates = true;
 };
 
 } // namespace sparselens::gpu

@@ -81,3 +81,28 @@ cmp -s out.exr expected-ldi.exr || fail "ldi-warp: the device's samples are othe
 SPARSELENS_DEVICE=$name exits 0 "${warp[@]}" -o ldi.#.exr --frames 1-2 -v
 [ "$(grep -c 'warped by the device: 90 of 90' stderr)" -eq 2 ] || fail "rows of two frames: $(cat stderr)"
 cmp -s ldi.0002.exr expected-ldi.exr || fail "the samples of a second frame are others"
+
+# Two processes use one device at once.
+"$gather" input.exr "${lens[@]}" -o a.exr --device "$name" --holdout input.exr --spherical 0.5 &
+a=$!
+"$gather" input.exr "${lens[@]}" -o b.exr --device "$name" --method selective --layers 3 &
+b=$!
+exits 0 "${warp[@]}" -o out.exr --device "$name"
+wait $a && wait $b || fail "two processes on a device: one failed"
+cmp -s out.exr expected-ldi.exr || fail "two processes on a device: other samples"
+picture same a.exr frame.0002.exr 0 >differ && picture same b.exr expected.exr 1e-4 >differ ||
+    fail "two processes on a device: $(cat differ)"
+
+# A device that is lost, or has little memory, costs a line at most.
+faulty=$bin/../tests/faulty-vulkan
+[ -e "$faulty/libvulkan.so" ] || skip "no Vulkan that fails"
+for fault in CALL=60 MB=8; do
+    for command in "$gather input.exr ${lens[*]}" "$gather input.exr ${lens[*]} --method selective --layers 3" \
+        "${warp[*]}"; do
+        exits 0 $command -o expected.exr
+        LD_LIBRARY_PATH=$faulty exits 0 env FAULTY_VULKAN_$fault $command -o out.exr --device "$name"
+        cmp -s out.exr expected.exr || fail "$fault: another picture: $command $(cat stderr)"
+        [ "$(grep -c "$name" stderr)" -eq 1 ] || fail "$fault: $(cat stderr)"
+        grep -q 'warning: .* \(was lost\|has not enough memory\); the CPU ' stderr || fail "$fault: $(cat stderr)"
+    done
+done

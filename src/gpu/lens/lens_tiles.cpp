@@ -90,7 +90,6 @@ constexpr std::uint32_t code[] = {
 #include <lens_tile.comp.inc>
 };
 
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
 // Tests of a sample by a lens point that are submitted at once. Operating systems end work that takes seconds.
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
@@ -151,52 +150,53 @@ const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t
 }
 
 void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
-                               const std::function<void(std::size_t, const TilePicture &)> &done,
-                               TileReport &report) {
+                               const std::function<void(std::size_t, const TilePicture &)> &done) {
     const std::uint32_t rules = rules_of(scene, all), points = points_at_once(device_, rules);
     std::map<const LensSample *, std::vector<LensSample>> lens; // by those of the tasks
-    std::vector<TileTask> tasks;
+    std::vector<TileTask> taken;
     std::vector<std::size_t> numbers; // the number of each task among all tasks
     for (std::size_t n = 0; n < all.size(); ++n) {
         if (turns_of(scene, all[n]) > device_.most_turns()) {
-            ++report.on_cpu["more steps than the device takes"];
+            ++worker_.report.on_cpu["more steps than the device takes"];
             continue;
         }
-        tasks.push_back(all[n]);
+        taken.push_back(all[n]);
         numbers.push_back(n);
         std::vector<LensSample> &grouped = lens[all[n].lens.data()];
         if (grouped.empty()) grouped = in_groups(all[n].lens, points);
-        tasks.back().lens = grouped;
+        taken.back().lens = grouped;
     }
+    const std::span<const TileTask> tasks = taken;
     const Program &program = program_for(rules, points);
-    const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
-    const double turns = std::min(turns_in_pass, device_.most_turns());
-    for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
-        const std::span<const TileTask> left = std::span(tasks).subspan(begin);
-        count = tasks_that_fit(scene, left, bytes);
-        if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
-        if (count == 0) continue;
-        const bool whole = count == tasks.size() && fits_whole(scene, tasks, bytes);
-        if (!whole) buffers_ = {};
-        report.uploaded +=
-            buffers_.bring(device_, make_stripe(scene, left.first(count), whole, points, turns));
-        gather_stripe(scene, program,
+    const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
+        return tasks_that_fit(scene, tasks.subspan(begin, most), bytes);
+    };
+    const auto work = [&](std::size_t begin, std::size_t count) -> const char * {
+        StripeBuffers buffers = std::exchange(buffers_, {});
+        const bool whole = count == tasks.size() && fits_whole(scene, tasks, worker_.buffer_bytes());
+        if (!whole) buffers = {};
+        worker_.report.uploaded +=
+            buffers.bring(device_, make_stripe(scene, tasks.subspan(begin, count), whole, points,
+                                               std::min(turns_in_pass, device_.most_turns())));
+        gather_stripe(scene, program, buffers,
                       [&](std::size_t t, const TilePicture &picture) { done(numbers[begin + t], picture); });
-        if (!whole) buffers_ = {};
-        report.on_device += count;
-    }
+        if (whole) buffers_ = std::move(buffers);
+        return nullptr;
+    };
+    worker_.by_stripes(tasks.size(), 1, fit, work);
 }
 
 void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &program,
+                                      const StripeBuffers &in,
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
-    const std::size_t tiles = buffers_.stripe().tiles.size(), groups = scene.colours.groups,
+    const std::size_t tiles = in.stripe().tiles.size(), groups = scene.colours.groups,
                       all = tiles * tile_pixels * groups;
     const Buffer values = device_.buffer(all * 4 * sizeof(float)),
                  known = device_.buffer(all * sizeof(float));
-    const std::uint32_t passes = passes_of(buffers_.stripe());
+    const std::uint32_t passes = passes_of(in.stripe());
     const Buffer sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
     for (std::uint32_t pass = 0; pass < passes; ++pass)
-        run(program, pass, groups, float(scene.held_out.depth_at_1), buffers_.bindings(values, known, sums));
+        run(program, in.stripe(), pass, scene, in.bindings(values, known, sums));
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);
@@ -205,16 +205,16 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &p
     });
 }
 
-void LensTilesOnDevice::run(const Program &program, std::uint32_t pass, std::size_t groups, float depth_at_1,
-                            std::span<const Buffer *const> buffers) {
-    const Stripe &stripe = buffers_.stripe();
+void LensTilesOnDevice::run(const Program &program, const Stripe &stripe, std::uint32_t pass,
+                            const GatherScene &scene, std::span<const Buffer *const> buffers) {
     const auto tiles = std::uint32_t(stripe.tiles.size());
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
-        const lens_kernel::Push push{first, tiles, std::uint32_t(stripe.alphas.size()), pass, depth_at_1};
+        const lens_kernel::Push push{first, tiles, std::uint32_t(stripe.alphas.size()), pass,
+                                     float(scene.held_out.depth_at_1)};
         device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
-                    {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});
+                    {lens_kernel::quarters * (end - first), std::uint32_t(scene.colours.groups), 1});
     }
 }
 

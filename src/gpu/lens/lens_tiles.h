@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "gpu/device.h"
+#include "gpu/device_worker.h"
 #include "gpu/lens/stripe.h"
 
 #include <map>
@@ -30,19 +30,20 @@ private:
 
 class LensTilesOnDevice {
 public:
-    explicit LensTilesOnDevice(Device &device) : device_(device) {}
+    explicit LensTilesOnDevice(DeviceWorker &worker) : worker_(worker), device_(worker.device) {}
 
     // Like TileDevice::gather(). Throws DeviceFailed; what was done before stays done.
     void gather(const GatherScene &scene, std::span<const TileTask> tasks,
-                const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
+                const std::function<void(std::size_t, const TilePicture &)> &done);
 
 private:
     const Program &program_for(std::uint32_t rules, std::uint32_t points);
-    void gather_stripe(const GatherScene &scene, const Program &program,
+    void gather_stripe(const GatherScene &scene, const Program &program, const StripeBuffers &in,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
-    void run(const Program &program, std::uint32_t pass, std::size_t groups, float depth_at_1,
+    void run(const Program &program, const Stripe &stripe, std::uint32_t pass, const GatherScene &scene,
              std::span<const Buffer *const> buffers);
 
+    DeviceWorker &worker_;
     Device &device_;
     std::map<std::uint32_t, Program> programs_; // by their rules; made when they are first needed
     StripeBuffers buffers_;                     // kept for the next frame if one stripe is everything

@@ -17,7 +17,6 @@ constexpr std::uint32_t code[] = {
 };
 
 constexpr std::uint32_t buffers = 14;
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
 // Turns of its loops that a work group takes in a pass, and that all work groups submitted at once take. Operating
 // systems end work that takes seconds.
 constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
@@ -83,37 +82,35 @@ void run(Device &device, const Program &program, const SplatScene &scene, const 
 } // namespace
 
 void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const SplatTask> tasks,
-                                    const std::function<void(std::size_t, const SplatPicture &)> &done,
-                                    TileReport &report) {
-    if (!device_.info().float64) {
-        report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
+                                    const std::function<void(std::size_t, const SplatPicture &)> &done) {
+    Device &device = worker_.device;
+    if (!device.info().float64) {
+        worker_.report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
         return;
     }
-    if (!program_) program_.emplace(device_.program("selective", code, buffers, sizeof(splat_kernel::Push)));
-    const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
-    for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
-        count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
-        if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
-        if (count == 0) continue;
+    if (!program_) program_.emplace(device.program("selective", code, buffers, sizeof(splat_kernel::Push)));
+    const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
+        return tasks_that_fit(scene, tasks.subspan(begin, most), bytes);
+    };
+    const auto work = [&](std::size_t begin, std::size_t count) -> const char * {
         const SplatStripe stripe = make_stripe(scene, tasks.subspan(begin, count),
-                                               std::min(steps_in_pass, device_.most_turns() * 2 / 3));
-        if (*std::ranges::max_element(stripe.steps) > device_.most_turns()) {
-            report.on_cpu["more steps than the device takes"] += count;
-            continue;
-        }
-        const Placed placed(device_, scene, stripe);
-        for (const Buffer &in : placed.in) report.uploaded += in.bytes();
-        run(device_, *program_, scene, stripe, placed);
+                                               std::min(steps_in_pass, device.most_turns() * 2 / 3));
+        if (*std::ranges::max_element(stripe.steps) > device.most_turns())
+            return "more steps than the device takes";
+        const Placed placed(device, scene, stripe);
+        for (const Buffer &in : placed.in) worker_.report.uploaded += in.bytes();
+        run(device, *program_, scene, stripe, placed);
         std::vector<float> values(stripe.groups * count * splat_kernel::pixels * 4),
             alphas(count * splat_kernel::pixels);
-        device_.download(std::as_writable_bytes(std::span(values)), placed.values);
-        device_.download(std::as_writable_bytes(std::span(alphas)), placed.alphas);
+        device.download(std::as_writable_bytes(std::span(values)), placed.values);
+        device.download(std::as_writable_bytes(std::span(alphas)), placed.alphas);
         parallel_for(count, [&](std::size_t t) {
             done(begin + t, {&values[t * splat_kernel::pixels * 4], &alphas[t * splat_kernel::pixels],
                              count * splat_kernel::pixels * 4});
         });
-        report.on_device += count;
-    }
+        return nullptr;
+    };
+    worker_.by_stripes(tasks.size(), 1, fit, work);
 }
 
 } // namespace sparselens::gpu

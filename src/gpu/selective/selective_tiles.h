@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "gpu/device.h"
+#include "gpu/device_worker.h"
 
 #include <optional>
 
@@ -11,14 +11,14 @@ namespace sparselens::gpu {
 
 class SelectiveTilesOnDevice {
 public:
-    explicit SelectiveTilesOnDevice(Device &device) : device_(device) {}
+    explicit SelectiveTilesOnDevice(DeviceWorker &worker) : worker_(worker) {}
 
     // Like TileDevice::gather(). Throws DeviceFailed; what was done before stays done.
     void gather(const SplatScene &scene, std::span<const SplatTask> tasks,
-                const std::function<void(std::size_t, const SplatPicture &)> &done, TileReport &report);
+                const std::function<void(std::size_t, const SplatPicture &)> &done);
 
 private:
-    Device &device_;
+    DeviceWorker &worker_;
     std::optional<Program> program_; // made when it is first needed
 };
 

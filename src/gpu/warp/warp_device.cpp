@@ -3,7 +3,7 @@
 #include "base/grid.h"
 #include "base/matte.h"
 #include "deep/build.h"
-#include "gpu/device.h"
+#include "gpu/device_worker.h"
 #include "gpu/warp/warp_stripe.h"
 #include "kernels/warp_layout.h"
 #include "warp/photo_consistency.h"
@@ -81,8 +81,6 @@ private:
 
 namespace {
 
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
-
 // One thread sorts a pixel, in time proportional to the square of its samples.
 constexpr std::uint32_t most_in_pixel = 1024;
 
@@ -95,78 +93,54 @@ std::uint32_t most_in_software(const WarpScene &scene) {
 
 class WarpGpu : public WarpDevice {
 public:
-    WarpGpu(const DeviceInfo &info, const Watch &watch) : device_(info, watch), kernels_(device_) {}
+    WarpGpu(const DeviceInfo &info, const Watch &watch) : worker_(info, watch), kernels_(worker_.device) {}
 
     void warp(const WarpScene &scene, const std::function<void(WarpedBands)> &done) override {
-        const int height = scene.layout.windows.height();
-        const std::size_t before = report_.on_device;
-        const auto leave = [&](const char *why) {
-            report_.on_cpu[why] += std::size_t(height) - (report_.on_device - before);
-        };
-        if (lost_) return leave(failed);
-        if (!find_mattes(scene.layout.channels).empty()) return leave("Cryptomattes");
-        const double inverse_z = largest_inverse_z(scene.views);
-        if (!std::isfinite(inverse_z)) return leave("depths that single precision hardly holds");
-        try {
-            warp_by_stripes(scene, inverse_z, done);
-        } catch (const DeviceFailed &failure) {
-            lost_ = true;
-            report_.failure = failure.what();
-            leave(failed);
-        }
+        const auto height = std::size_t(scene.layout.windows.height());
+        const auto leave = [&](const char *why) { worker_.report.on_cpu[why] += height; };
+        worker_.unless_lost(height, [&] {
+            if (!find_mattes(scene.layout.channels).empty()) return leave("Cryptomattes");
+            const double inverse_z = largest_inverse_z(scene.views);
+            if (!std::isfinite(inverse_z)) return leave("depths that single precision hardly holds");
+            warp_rows(scene, height, inverse_z, done);
+        });
     }
 
-    DeviceReport take_report() override {
-        report_.ms = device_.take_times();
-        return std::exchange(report_, {});
-    }
+    DeviceReport take_report() override { return worker_.take_report(); }
 
 private:
-    static constexpr const char *failed = "the device failed";
-
-    void warp_by_stripes(const WarpScene &scene, double inverse_z,
-                         const std::function<void(WarpedBands)> &done) {
-        const Imath::Box2i &data = scene.layout.windows.data;
-        const std::size_t bands = pieces_of(std::size_t(Grid(data).height()), std::size_t(warp_band_rows));
-        std::size_t at_once = bands;
-        for (std::size_t first = 0; first < bands;) {
-            const std::size_t count = std::min(at_once, bands - first);
-            Imath::Box2i box = data;
-            box.min.y += int(first) * warp_band_rows;
-            box.max.y = std::min(box.max.y, box.min.y + int(count) * warp_band_rows - 1);
-            const WarpStripe stripe = make_stripe(scene, box, inverse_z);
-            if (buffer_bytes(scene, stripe) > std::min(stripe_bytes, device_.largest_buffer()) && count > 1) {
-                at_once = pieces_of(count, std::size_t{2});
-                continue;
+    void warp_rows(const WarpScene &scene, std::size_t height, double inverse_z,
+                   const std::function<void(WarpedBands)> &done) {
+        constexpr std::size_t band = warp_band_rows;
+        const auto stripe_of = [&](std::size_t begin, std::size_t count) {
+            Imath::Box2i box = scene.layout.windows.data;
+            box.min.y += int(begin);
+            box.max.y = box.min.y + int(count) - 1;
+            return make_stripe(scene, box, inverse_z);
+        };
+        const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
+            std::size_t rows = most;
+            while (buffer_bytes(scene, stripe_of(begin, rows)) > bytes) {
+                if (rows <= band) return std::size_t{0};
+                rows = pieces_of(rows, 2 * band) * band;
             }
-            warp_stripe(scene, stripe, first, count, done);
-            first += count;
-        }
+            return rows;
+        };
+        const auto work = [&](std::size_t begin, std::size_t rows) -> const char * {
+            const WarpStripe stripe = stripe_of(begin, rows);
+            const std::uint32_t most =
+                worker_.device.info().kind == Kind::software ? most_in_software(scene) : most_in_pixel;
+            StripeWork on(worker_.device, kernels_, scene, stripe, most);
+            worker_.report.uploaded += on.uploaded();
+            if (!on.land()) return "more samples in a pixel than it sorts";
+            done({begin / band, pieces_of(rows, band), on.merge(), on.differing_blocks()});
+            return nullptr;
+        };
+        worker_.by_stripes(height, band, fit, work);
     }
 
-    void warp_stripe(const WarpScene &scene, const WarpStripe &stripe, std::size_t first, std::size_t count,
-                     const std::function<void(WarpedBands)> &done) {
-        const auto rows = std::size_t(Grid(stripe.box).height());
-        if (buffer_bytes(scene, stripe) > device_.largest_buffer()) {
-            report_.on_cpu["more samples than its buffers hold"] += rows;
-            return;
-        }
-        const std::uint32_t most =
-            device_.info().kind == Kind::software ? most_in_software(scene) : most_in_pixel;
-        StripeWork work(device_, kernels_, scene, stripe, most);
-        report_.uploaded += work.uploaded();
-        if (!work.land()) {
-            report_.on_cpu["more samples in a pixel than it sorts"] += rows;
-            return;
-        }
-        done({first, count, work.merge(), work.differing_blocks()});
-        report_.on_device += rows;
-    }
-
-    Device device_;
+    DeviceWorker worker_;
     WarpKernels kernels_;
-    DeviceReport report_;
-    bool lost_ = false;
 };
 
 } // namespace

@@ -1,0 +1,39 @@
+// A device that works for somebody: stripe by stripe, because not all may fit into its memory, and until it fails. It
+// counts what it did, and what it leaves to the CPU.
+#pragma once
+
+#include "base/progress.h"
+#include "gpu/device.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace sparselens::gpu {
+
+class DeviceWorker {
+public:
+    DeviceWorker(const DeviceInfo &info, const Watch &watch) : device(info, watch) {}
+
+    Device device;
+    DeviceReport report;
+
+    // Runs work(), which does `units` of work and counts them in the report. If the device fails, or has failed before,
+    // the CPU has to do the rest.
+    void unless_lost(std::size_t units, const std::function<void()> &work);
+
+    // Works on `units`, some of them at once. If the device is full, half as many are tried; no fewer than `least`.
+    // fit(begin, most, bytes): how many, from `begin` on and at most so many, fit into buffers of this size; 0: none.
+    // work(begin, count): returns why the CPU has to do them; null: they are done.
+    void by_stripes(std::size_t units, std::size_t least,
+                    const std::function<std::size_t(std::size_t, std::size_t, std::size_t)> &fit,
+                    const std::function<const char *(std::size_t, std::size_t)> &work);
+
+    std::size_t buffer_bytes() const; // of a buffer, at most
+    DeviceReport take_report();
+
+private:
+    std::size_t at_once_ = ~std::size_t{0}; // units; also in later pictures
+    bool lost_ = false;
+};
+
+} // namespace sparselens::gpu

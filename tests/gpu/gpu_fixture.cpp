@@ -1,0 +1,55 @@
+#include "gpu/gpu_fixture.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+namespace sparselens::gpu {
+
+namespace {
+
+// Vulkan is opened by name, which means this library from now on.
+[[maybe_unused]] const void *const faulty = dlopen(SPARSELENS_FAULTY_VULKAN, RTLD_NOW);
+
+class Set { // a variable of the environment
+public:
+    Set(const char *name, std::size_t value) : name_(name) { setenv(name, std::to_string(value).c_str(), 1); }
+    ~Set() { unsetenv(name_); }
+    Set(const Set &) = delete;
+    Set &operator=(const Set &) = delete;
+
+private:
+    const char *name_;
+};
+
+} // namespace
+
+void GpuTest::expect_bears_failures(const Work &work) {
+    const DeviceReport sound = work();
+    EXPECT_EQ(sound.failure, "");
+    EXPECT_GT(sound.on_device, 0u);
+    std::map<std::string, std::size_t> failures;
+    for (std::size_t call = 1;; ++call) {
+        const Set fails("FAULTY_VULKAN_CALL", call);
+        validates = call % 4 == 0; // it takes most of the time
+        std::string failure;
+        try {
+            failure = work().failure;
+            if (failure.empty()) break;
+        } catch (const DeviceFailed &failed) { // when it is opened
+            failure = failed.what();
+        }
+        ++failures[failure];
+    }
+    EXPECT_EQ(failures.size(), 3u);
+    EXPECT_GE(failures[info->name + " was lost"], 6u);
+    EXPECT_GE(failures[info->name + " has not enough memory"], 60u);
+    EXPECT_EQ(failures[info->name + ": its driver found not enough memory"], 1u);
+}
+
+DeviceReport GpuTest::with_memory(std::size_t mb, const Work &work) {
+    const Set memory("FAULTY_VULKAN_MB", mb);
+    return work();
+}
+
+} // namespace sparselens::gpu
