@@ -1,13 +1,12 @@
 #include "options/match_options.h"
 
+#include "chain/parameter_rows.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -15,20 +14,6 @@
 namespace sparselens {
 
 namespace {
-
-// Parses "X,Y,WIDTH,HEIGHT"; nothing for other text and for a size below 1.
-std::optional<Imath::Box2i> parse_rectangle(const std::string &text) {
-    std::array<int, 4> v{};
-    const char *at = text.data(), *const end = at + text.size();
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        if (i > 0 && (at == end || *at++ != ',')) return {};
-        const auto [after, error] = std::from_chars(at, end, v[i]);
-        if (error != std::errc()) return {};
-        at = after;
-    }
-    if (at != end || v[2] < 1 || v[3] < 1) return {};
-    return Imath::Box2i({v[0], v[1]}, {v[0] + v[2] - 1, v[1] + v[3] - 1});
-}
 
 void add_file_options(CLI::App &app, MatchCommand &options) {
     app.add_option("IN", options.input,
@@ -67,14 +52,13 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
     app.add_option_function<std::string>(
            "--region",
            [&options](const std::string &text) {
-               options.match.region = parse_rectangle(text);
-               if (!options.match.region)
+               if (!parameter_rows::read_place({}, text, options.match.region.emplace()))
                    throw CLI::ValidationError(
                        "--region",
-                       fmt::format("must be X,Y,WIDTH,HEIGHT (e.g. 100,50,640,360), not '{}'", text));
+                       fmt::format("must be X0,Y0,X1,Y1 (left, top, right and bottom), not '{}'", text));
            },
-           "Pixels to compare: the upper left one, y down, and the size (default: all)")
-        ->type_name("X,Y,W,H");
+           "Pixels to compare, in EXR coordinates, X1 and Y1 included (default: all)")
+        ->type_name("X0,Y0,X1,Y1");
     const std::map<std::string, MatchFit> fits{
         {"both", MatchFit::both}, {"focus", MatchFit::focus}, {"fstop", MatchFit::fstop}};
     app.add_option("--fit", options.match.fit,
@@ -86,7 +70,7 @@ void add_match_options(CLI::App &app, MatchCommand &options) {
     add_parameters(app, lens_parameters(), options.lens);
     add_parameters(app, depth_parameters(), options.depth);
     add_examples(app, {{"Find the lens of a filmed rack of focus",
-                        "dof-match shot.ldi.exr plate.####.exr --region 200,100,600,340 -o keys.json"},
+                        "dof-match shot.ldi.exr plate.####.exr --region 200,100,799,439 -o keys.json"},
                        {"Find the focus alone, with the f-stop of the camera report",
                         "dof-match shot.ldi.exr plate.exr --fstop 2.8 --fit focus"}});
 }
