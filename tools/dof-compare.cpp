@@ -122,6 +122,9 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
     std::optional<Image> first;
     const auto second = second_reference(options, windows, tool);
     if (second) {
+        if (second->values == reference.values)
+            throw Error(fmt::format("{}: has the same noise as {}: render each with a seed of its own",
+                                    options.second_reference, options.reference));
         first = std::move(reference);
         reference = mean_of_references(*first, *second);
     }

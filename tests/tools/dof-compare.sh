@@ -201,6 +201,7 @@ mv stdout one-way.json
 exits 0 "$compare" noisy/reference.exr noisy/rays_2.exr noisy/rays_1.exr --json --threads 1
 cmp -s stdout one-way.json || fail "the order of references matters"
 fails_saying 1 'n1.exr' "$compare" wrong.exr noisy/rays_1.exr n1.exr
+fails_saying 1 'has the same noise' "$compare" few/reference.exr many/reference.exr many/reference.exr
 fails_saying 2 'REF_2' "$compare" 's.####.exr' 's.####.exr' 's.####.exr' --frames 1-3
 
 # --frames: the steadiness of a sequence. Of three pixels one is constant, one changes evenly, one jumps in the last
