@@ -17,7 +17,7 @@
 namespace sparselens {
 
 enum class OutputOverscan {
-    grow, // the file's pixels, and those of the display window that the blur reaches; nothing lies beyond
+    grow, // the file's pixels, and those of the display window that the blur reaches; what lies beyond them is empty
     keep, // the file's pixels
     crop, // the file's pixels in the display window
 };

@@ -26,7 +26,7 @@ struct PhotoConsistencyOptions {
 // For each pixel of some rows.
 struct PhotoConsistency {
     std::vector<bool> averages; // the views may be averaged
-    // In focus or not: clear where views differ by more than noise, or as they would if the image lay at another depth.
+    // How clearly views differ by more than noise, also in focus, or as if the image lay at another depth.
     std::vector<Disagreement> differ;
 };
 

@@ -16,7 +16,7 @@
 
 namespace sparselens {
 
-class WarpDevice;  // device/warp_device.h
+class WarpDevice;  // warp/warp_device.h
 struct PackedView; // deep/view_samples.h
 
 enum class Merge {

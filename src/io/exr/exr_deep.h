@@ -1,5 +1,5 @@
 // LDIs on disk: deep EXR files (of any program, scanline or tiled), and flat pictures with depth, read as LDIs of one
-// sample per pixel. docs/design.md section 2 describes the layout. `-` stands for standard input and output.
+// sample per pixel. docs/file-format.md describes the layout. `-` stands for standard input and output.
 #pragma once
 
 #include "../../deep/ldi.h"
