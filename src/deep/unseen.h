@@ -6,9 +6,10 @@
 // - No view could look: fillers.h (assumed: seen where nothing else is, and hide lamps).
 // - Beyond the frame: frame_extension.h.
 //
-// A surface goes on along rows and columns, from its last pixel. Beside that, something nearer hides it; a surface that
-// ends where nothing is nearer has an outer edge, and does not go on. If surfaces go on into a pixel from several sides,
-// those that are one surface there become one sample: their mean, weighted by 1 / n n pixels from their ends.
+// A surface goes on along rows and columns, from its last pixel, if something nearer hides it in the next one. A surface
+// that ends where nothing is nearer has an outer edge, and does not go on. If surfaces go on into a pixel from several
+// sides, those that are one surface there become one sample: their mean, in which each weighs 1 / n in the n-th pixel
+// after its end.
 #pragma once
 
 #include "kernels/surface.h"

@@ -44,8 +44,8 @@ private:
     OfPixels relief_;
 };
 
-// Continues surfaces behind nearer ones, where no view could look. Without these samples, a lens point between the views
-// looks past an inner edge, and sees the sky or a lamp there.
+// Continues surfaces behind nearer ones, where no view could look. Without these samples, a lens point between the
+// views looks past an inner edge, and sees the sky or a lamp there.
 //
 // A surface that ends where nothing is nearer has an outer edge, and does not continue. A surface that ends where
 // something nearer begins continues along its row or its column, as the mirror image of what it was before its end. The

@@ -189,6 +189,10 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
 
 namespace {
 
+std::size_t pixel_at(const Ldi &ldi, int x, int y) {
+    return ldi.windows.index(ldi.windows.data.min.x + x, ldi.windows.data.min.y + y);
+}
+
 // Places the fillers for which is_placed(number) is true; `source` is the number.
 template <typename IsPlaced>
 BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
@@ -196,37 +200,37 @@ BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Fill
     std::vector<std::uint32_t> of_pixel(ldi.windows.pixels(), 0); // the number, plus 1
     for (std::uint32_t f = 0; f < fillers.size(); ++f)
         if (is_placed(f)) of_pixel[fillers[f].pixel] = f + 1;
-    const auto at = [&](int x, int y) {
-        return of_pixel[std::size_t(y) * std::size_t(ldi.windows.width()) + std::size_t(x)];
-    };
-    const auto count = [&](int x, int y) { return at(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
-        if (!at(x, y)) return;
-        const Filler &filler = fillers[at(x, y) - 1];
+    return make_blocks(ldi.windows, [&](int x, int y, std::vector<PlacedSample> &found) {
+        const std::uint32_t number = of_pixel[pixel_at(ldi, x, y)];
+        if (number == 0) return;
+        const Filler &filler = fillers[number - 1];
         const double z = double(filler.z);
         found.push_back({float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, z)),
                          float(disparity(lens, z)), 1,
-                         filler.is_nothing() ? BlockedSamples::background : at(x, y) - 1});
-    };
-    return make_blocks(ldi.windows, count, place);
+                         filler.is_nothing() ? BlockedSamples::background : number - 1});
+    });
 }
 
-// Whether a sample of a pixel is one surface with samples of most pixels in the square of three by three around it.
+// Calls visit(pixel) for the pixels in the square of three by three around one.
+template <typename Visit>
+void for_each_around(const Ldi &ldi, std::size_t pixel, const Visit &visit) {
+    const Imath::V2i at = ldi.windows.pixel(pixel);
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+        for (int x = at.x - 1; x <= at.x + 1; ++x)
+            if (ldi.windows.data.intersects(Imath::V2i(x, y))) visit(ldi.windows.index(x, y));
+}
+
+// Whether a sample of a pixel is one surface with samples of most pixels around it.
 bool is_wide(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, std::uint64_t sample) {
     const auto depth = [&](std::uint64_t i) { return disparity(lens, double(ldi.z[i])); };
-    const auto shows_it = [&](std::size_t p) {
-        for (const std::uint64_t i : ldi.pixel(p))
-            if (is_one_surface(depth(i), depth(sample))) return true;
-        return false;
-    };
-    const Imath::V2i at = ldi.windows.pixel(pixel);
     int all = 0, same = 0;
-    for (int y = at.y - 1; y <= at.y + 1; ++y)
-        for (int x = at.x - 1; x <= at.x + 1; ++x) {
-            if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
-            ++all;
-            same += shows_it(ldi.windows.index(x, y));
-        }
+    for_each_around(ldi, pixel, [&](std::size_t beside) {
+        bool shows_it = false;
+        for (const std::uint64_t i : ldi.pixel(beside))
+            shows_it = shows_it || is_one_surface(depth(i), depth(sample));
+        ++all;
+        same += shows_it;
+    });
     return 2 * same > all;
 }
 
@@ -273,6 +277,47 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
         }
     });
     return result;
+}
+
+BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples) {
+    if (ldi.solid.empty()) return {};
+    const std::size_t alpha = ldi.alpha();
+    const auto hides = [&](std::uint64_t i) { return is_opaque(alpha_at(ldi, alpha, i)); };
+    const auto may_show = [&](std::uint64_t i) { return hides(i) && ldi.coc_z(i) == double(ldi.z[i]); };
+    // The one of `samples` that the solid of a sample shows.
+    const auto shown_by = [&](std::size_t pixel, std::uint64_t i) -> std::optional<std::uint32_t> {
+        if (may_show(i)) return place_of(samples, ldi, pixel, i);
+        std::optional<std::uint32_t> nearest;
+        double least = hides(i) ? 0 : std::numeric_limits<double>::infinity();
+        for_each_around(ldi, pixel, [&](std::size_t beside) {
+            for (const std::uint64_t n : ldi.pixel(beside)) {
+                const double behind = 1 / double(ldi.z[i]) - 1 / double(ldi.z[n]);
+                if (!may_show(n) || behind > double(ldi.solid[i]) || std::abs(behind) >= least) continue;
+                nearest = place_of(samples, ldi, beside, n);
+                least = std::abs(behind);
+            }
+        });
+        return nearest;
+    };
+    const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
+        const std::size_t pixel = pixel_at(ldi, x, y);
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
+            const MergedSample s = sample_at(ldi, i);
+            const double back = 1 / double(s.z) - double(s.solid),
+                         hidden = 1 / double(s.z) - 2 * double(s.solid);
+            if (!(s.solid > 0 && hidden > 0)) continue;
+            if (const auto shown = shown_by(pixel, i))
+                placed.push_back({float(x) + 0.5f + s.dx,
+                                  float(y) + 0.5f + s.dy,
+                                  float(circle_of_confusion(lens, 1 / back)),
+                                  float(disparity(lens, 1 / hidden)),
+                                  1,
+                                  std::uint32_t(i),
+                                  {},
+                                  *shown});
+        }
+    };
+    return make_blocks(ldi.windows, place, Also::names);
 }
 
 } // namespace sparselens

@@ -57,8 +57,8 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
 struct FillerSamples {
     BlockedSamples samples; // `source` is the number of the filler, or `background` if it is nothing
     SampleColours colours;
-    // The ones that hide lamps (highlight_shadows.h), once more. `source` is the front sample of the pixel, and `named` the
-    // sample of the picture that the filler shows.
+    // The ones that hide lamps (highlight_shadows.h), once more. `source` is the front sample of the pixel, and `named`
+    // the sample of the picture that the filler shows.
     BlockedSamples hiding;
 };
 
@@ -73,5 +73,21 @@ struct FillerSamples {
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                             const BlockedSamples &samples, const SampleColours &colours,
                             const std::optional<std::span<const std::uint32_t>> &highlights = {});
+
+// Places the solids behind samples (Ldi::solid), as lens points see them: each such sample once more, farther away by
+// its solid.
+//
+// A lens point that sees something behind a solid sees the solid instead: light finds no way through a gap as narrow as
+// what no view saw through. This holds for things at least as far behind the solid as the solid lies behind its sample.
+// Cracks and fillers come first: they decide where a lens point meets nothing opaque.
+//
+// A solid shows the colour of its sample. If the sample covers less than its pixel, as on edges, the solid shows the
+// opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;
+// without such a sample there is no solid. Mirrors and glass, which show images, are not solid.
+
+// Returns the solids in the blocks of the LDI's `samples`, before looks move them (gather_scene.h); no blocks if
+// nothing is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is
+// farther.
+BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
 
 } // namespace sparselens

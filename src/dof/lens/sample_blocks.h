@@ -66,7 +66,7 @@ struct BlockedSamples {
     LargeArray<float> surface_coc;
     LargeArray<float> alpha;         // coverage, (0, 1]
     LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    // For solids: what the lower half of the key names. Empty: the sample itself.
+    // What no view saw (fillers.h) names a sample that it shows in the lower half of the key. Empty: the sample itself.
     LargeArray<std::uint32_t> named;
     LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
@@ -120,7 +120,9 @@ struct PlacedSample {
     float x, y, coc, depth, alpha;
     std::uint32_t source;
     std::optional<float> surface_coc = {}; // else coc
+    std::uint32_t named = 0;
 };
+enum class Also { nothing, surfaces, names }; // arrays that are not empty: surface_coc or named
 
 struct SampleCounts {
     std::uint32_t opaque = 0, all = 0;
@@ -131,7 +133,9 @@ struct SampleCounts {
 using CountSamples = std::function<SampleCounts(int x, int y)>;
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
-                           bool images = false);
+                           Also also);
+// The same for opaque samples, which are made twice.
+BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, Also also = Also::nothing);
 
 // Colours of the samples of a BlockedSamples, in groups of four channels so that one load brings one group:
 // [group][sample][4], premultiplied; channel k of the LDI is entry k % 4 of group k / 4.
@@ -202,21 +206,5 @@ inline LightChannels light_channels(const Ldi &ldi) {
     }
     return light;
 }
-
-// The solids behind samples (Ldi::solid), as lens points see them: each such sample once more, farther away by its
-// solid.
-//
-// A lens point that sees something behind a solid sees the solid instead: light finds no way through a gap as narrow as
-// what no view saw through. This holds for things at least as far behind the solid as the solid lies behind its sample.
-// Cracks and fillers come first: they decide where a lens point meets nothing opaque.
-//
-// A solid shows the colour of its sample. If the sample covers less than its pixel, as on edges, the solid shows the
-// opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;
-// without such a sample there is no solid. Mirrors and glass, which show images, are not solid.
-
-// Returns the solids of an LDI, in the blocks of its `samples`, before looks move them (gather_scene.h); no blocks if
-// nothing is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is
-// farther. Their key has that depth, and names the one of `samples` that shows.
-BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
 
 } // namespace sparselens

@@ -2,6 +2,7 @@
 #include "base/numbers.h"
 #include "dof/lens/block_footprints.h"
 #include "dof/lens/blocked_fixture.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"

@@ -1,5 +1,5 @@
 // Solids behind samples as a lens point sees them: closed forms.
-#include "dof/lens/sample_blocks.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/visibility_fixture.h"
 
 #include <gtest/gtest.h>
