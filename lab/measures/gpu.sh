@@ -28,7 +28,7 @@ for size in ${sizes-1920x1080 3840x2160}; do
             read -r at threads <<<"$by"
             on="${at/cpu/CPU}${threads:+, $threads threads}"
             words=(--device "$at" ${threads:+--threads "$threads"})
-            row "warp of five views, $on" 'land|scan|surfaces|differences|vote|emit' ldi-warp "${views[@]}" "${words[@]}" -o "$scene.$size.exr"
+            row "warp of five views, $on" 'land|surfaces|differences|vote|emit' ldi-warp "${views[@]}" "${words[@]}" -o "$scene.$size.exr"
             for quality in normal final; do
                 row "pull, second frame, $quality, $on" lens dof-gather "$scene.$size.exr" --quality $quality "${words[@]}" --frames 1-2 --focus-distance 1:4,2:5 -o pull.#.exr
             done

@@ -30,7 +30,7 @@ struct Buffer::Memory {
 
 struct Program::Pipeline {
     const char *name;
-    std::uint32_t buffers, push_bytes;
+    std::uint32_t buffers;
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
     vk::raii::Pipeline pipeline;
@@ -48,14 +48,14 @@ struct Device::Vulkan {
     std::optional<vk::raii::QueryPool> begin_and_end; // of a program, in ticks
     Copies waiting;                                   // from the staging buffer
     std::size_t filled = 0;                           // bytes of it
-    std::unique_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
+    std::shared_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
     std::byte *staged = nullptr;                      // its bytes as this process sees them
     Progress times;
 
     Vulkan(const DeviceInfo &info, const Watch &watch);
 
     // Allocates in the first kind of memory that has the best of these sets of properties.
-    std::unique_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
+    std::shared_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
                                              std::initializer_list<vk::MemoryPropertyFlags> best_first);
     const vk::raii::Buffer &staging_buffer();
     double ticked_ms() const; // of the last program
@@ -145,10 +145,6 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, st
 
 } // namespace
 
-Program::Program(std::unique_ptr<Pipeline> pipeline) : pipeline_(std::move(pipeline)) {}
-Program::Program(Program &&) noexcept = default;
-Program::~Program() = default;
-
 Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch)
     : instance(watch.validation ? &watch.validation : nullptr),
       physical(std::move(vk::raii::PhysicalDevices(instance.instance).at(info.index))),
@@ -196,23 +192,23 @@ Program Device::program(const char *name, std::span<const std::uint32_t> spirv, 
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
                                                       &special);
         vk::raii::Pipeline pipeline(device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
-        return Program(std::make_unique<Program::Pipeline>(Program::Pipeline{
-            name, buffers, push_bytes, std::move(sets), std::move(layout), std::move(pipeline)}));
+        return Program{std::make_shared<Program::Pipeline>(
+            Program::Pipeline{name, buffers, std::move(sets), std::move(layout), std::move(pipeline)})};
     });
 }
 
-void Device::run(const Program &program, std::span<const Buffer *const> buffers,
-                 std::span<const std::byte> push, const std::array<std::uint32_t, 3> &groups) {
+void Device::run(const Program &program, std::span<const Buffer> buffers, std::span<const std::byte> push,
+                 const std::array<std::uint32_t, 3> &groups) {
     guarded(info_, [&] {
         const vk::raii::Device &device = vulkan_->device;
-        const Program::Pipeline &what = *program.pipeline_;
+        const Program::Pipeline &what = *program.pipeline;
         const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, what.buffers);
         using Flags = vk::DescriptorPoolCreateFlagBits;
         const vk::raii::DescriptorPool pool(device,
                                             vk::DescriptorPoolCreateInfo(Flags::eFreeDescriptorSet, 1, size));
         const vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *what.set_layout));
         std::vector<vk::DescriptorBufferInfo> whole;
-        for (const Buffer *buffer : buffers) whole.emplace_back(*buffer->memory_->buffer, 0, VK_WHOLE_SIZE);
+        for (const Buffer &buffer : buffers) whole.emplace_back(*buffer.memory->buffer, 0, VK_WHOLE_SIZE);
         device.updateDescriptorSets(
             vk::WriteDescriptorSet(*sets.front(), 0, 0, vk::DescriptorType::eStorageBuffer, {}, whole), {});
         const auto &clock = vulkan_->begin_and_end;
@@ -247,13 +243,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 } // namespace
 
-Buffer::Buffer(std::unique_ptr<Memory> memory, std::size_t bytes)
-    : memory_(std::move(memory)), bytes_(bytes) {}
-Buffer::Buffer(Buffer &&) noexcept = default;
-Buffer &Buffer::operator=(Buffer &&) noexcept = default;
-Buffer::~Buffer() = default;
-
-std::unique_ptr<Buffer::Memory>
+std::shared_ptr<Buffer::Memory>
 Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
                          std::initializer_list<vk::MemoryPropertyFlags> best_first) {
     vk::raii::Buffer buffer(device, vk::BufferCreateInfo({}, bytes, usage));
@@ -264,7 +254,7 @@ Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
             if ((memories.memoryTypes[type].propertyFlags & wanted) != wanted) continue;
             vk::raii::DeviceMemory memory(device, vk::MemoryAllocateInfo(needs.size, type));
             buffer.bindMemory(*memory, 0);
-            return std::unique_ptr<Buffer::Memory>(
+            return std::shared_ptr<Buffer::Memory>(
                 new Buffer::Memory{std::move(memory), std::move(buffer), waiting});
         }
     throw vk::OutOfDeviceMemoryError("no memory of the kind that is needed");
@@ -297,14 +287,14 @@ Buffer Device::buffer(std::size_t bytes) {
     constexpr auto usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     const std::size_t some = std::max(bytes, std::size_t{4});
     return guarded(info_, [&] {
-        return Buffer(vulkan_->allocate(some, usage, {Property::eDeviceLocal, {}}), some);
+        return Buffer{vulkan_->allocate(some, usage, {Property::eDeviceLocal, {}}), some};
     });
 }
 
 void Device::fill(Buffer &buffer, std::uint32_t word) {
     guarded(info_, [&] {
         vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-            command.fillBuffer(*buffer.memory_->buffer, 0, VK_WHOLE_SIZE, word);
+            command.fillBuffer(*buffer.memory->buffer, 0, VK_WHOLE_SIZE, word);
         });
     });
 }
@@ -325,7 +315,7 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
                 if (vulkan_->filled == staging_bytes) vulkan_->submit([](const auto &) {});
                 const std::size_t piece = std::min(staging_bytes - vulkan_->filled, end - begin);
                 std::memcpy(vulkan_->staged + vulkan_->filled, from.data() + begin, piece);
-                vulkan_->waiting[*to.memory_->buffer].emplace_back(vulkan_->filled, at + begin, piece);
+                vulkan_->waiting[*to.memory->buffer].emplace_back(vulkan_->filled, at + begin, piece);
                 begin += piece;
                 vulkan_->filled += piece;
             }
@@ -339,7 +329,7 @@ void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t a
         for (std::size_t done = 0; done < to.size(); done += staging_bytes) {
             const std::size_t piece = std::min(staging_bytes, to.size() - done);
             vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                command.copyBuffer(*from.memory_->buffer, *staging, vk::BufferCopy(at + done, 0, piece));
+                command.copyBuffer(*from.memory->buffer, *staging, vk::BufferCopy(at + done, 0, piece));
             });
             std::memcpy(to.data() + done, vulkan_->staged, piece);
         }

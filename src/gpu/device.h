@@ -43,31 +43,16 @@ struct ByteRange {
     std::size_t begin, end;
 };
 
-class Buffer { // storage that programs read and write
-public:
-    Buffer(Buffer &&) noexcept;
-    Buffer &operator=(Buffer &&) noexcept;
-    ~Buffer();
-    std::size_t bytes() const { return bytes_; }
-
-private:
-    friend class Device;
+// Storage that programs read and write. Copies of it are the same storage.
+struct Buffer {
     struct Memory;
-    Buffer(std::unique_ptr<Memory> memory, std::size_t bytes);
-    std::unique_ptr<Memory> memory_;
-    std::size_t bytes_;
+    std::shared_ptr<Memory> memory;
+    std::size_t bytes;
 };
 
-class Program {
-public:
-    Program(Program &&) noexcept;
-    ~Program();
-
-private:
-    friend class Device;
+struct Program {
     struct Pipeline;
-    explicit Program(std::unique_ptr<Pipeline> pipeline);
-    std::unique_ptr<Pipeline> pipeline_;
+    std::shared_ptr<Pipeline> pipeline;
 };
 
 class Device {
@@ -99,7 +84,7 @@ public:
     // `constants`: its specialization constants, from 0 on.
     Program program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                     std::uint32_t push_bytes, std::span<const std::uint32_t> constants = {});
-    void run(const Program &program, std::span<const Buffer *const> buffers, std::span<const std::byte> push,
+    void run(const Program &program, std::span<const Buffer> buffers, std::span<const std::byte> push,
              const std::array<std::uint32_t, 3> &groups);
 
     // Milliseconds since this was last called: of "upload" and "download" by the clock, and of each program by the

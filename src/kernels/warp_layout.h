@@ -12,9 +12,6 @@ using kernels::uint;
 inline constexpr uint none = 0xffffffffu;
 inline constexpr uint threads = 256; // of a work group
 
-// A prefix sum (warp_scan.comp): how many numbers a thread, and a work group, sums up at once.
-inline constexpr uint scanned = 4, scan_block = threads * scanned;
-
 struct View {
     double unzoom, approach, offset_x, offset_y, step_x, step_y; // ViewMapping
     int min_x, min_y, max_x, max_y;                              // its data window

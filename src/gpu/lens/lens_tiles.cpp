@@ -64,7 +64,7 @@ std::size_t StripeBuffers::bring(Device &device, Stripe &&stripe) {
     for (std::size_t part = 0; part < now.size(); ++part) {
         Bytes there = before[part];
         if (part == buffers_.size()) buffers_.push_back(buffer_for(device, now[part].size())), there = {};
-        if (buffers_[part].bytes() < now[part].size())
+        if (buffers_[part].bytes < now[part].size())
             buffers_[part] = buffer_for(device, now[part].size()), there = {};
         const std::vector<ByteRange> changed = changes(there, now[part]);
         device.upload(buffers_[part], now[part], changed);
@@ -74,13 +74,11 @@ std::size_t StripeBuffers::bring(Device &device, Stripe &&stripe) {
     return copied;
 }
 
-std::vector<const Buffer *> StripeBuffers::bindings(const Buffer &values, const Buffer &known,
-                                                    const Buffer &sums) const {
-    std::vector<const Buffer *> all;
-    for (const Buffer &buffer : buffers_) all.push_back(&buffer);
-    if (stripe_.shown.empty()) all.back() = &buffers_[cocs];
-    all.insert(all.begin() + 8, {&values, &known});
-    all.push_back(&sums);
+std::vector<Buffer> StripeBuffers::bindings(const Buffer &values, const Buffer &known,
+                                            const Buffer &sums) const {
+    std::vector<Buffer> all = buffers_;
+    if (stripe_.shown.empty()) all.back() = all[cocs];
+    all.insert(all.end(), {values, known, sums});
     return all;
 }
 
@@ -206,7 +204,7 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &p
 }
 
 void LensTilesOnDevice::run(const Program &program, const Stripe &stripe, std::uint32_t pass,
-                            const GatherScene &scene, std::span<const Buffer *const> buffers) {
+                            const GatherScene &scene, std::span<const Buffer> buffers) {
     const auto tiles = std::uint32_t(stripe.tiles.size());
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)

@@ -21,7 +21,7 @@ public:
 
     const Stripe &stripe() const { return stripe_; }
     // The buffers in the order of the shader's bindings, including those that the shader writes.
-    std::vector<const Buffer *> bindings(const Buffer &values, const Buffer &known, const Buffer &sums) const;
+    std::vector<Buffer> bindings(const Buffer &values, const Buffer &known, const Buffer &sums) const;
 
 private:
     Stripe stripe_;
@@ -41,7 +41,7 @@ private:
     void gather_stripe(const GatherScene &scene, const Program &program, const StripeBuffers &in,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
     void run(const Program &program, const Stripe &stripe, std::uint32_t pass, const GatherScene &scene,
-             std::span<const Buffer *const> buffers);
+             std::span<const Buffer> buffers);
 
     DeviceWorker &worker_;
     Device &device_;

@@ -11,19 +11,19 @@ layout(binding = 4) readonly buffer BlockLists { uint block_lists[]; };
 layout(binding = 5) readonly buffer PartialLists { uint partial_lists[]; }; // front to back
 layout(binding = 6) readonly buffer LensPoints { Lens lens_points[]; };
 layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
-layout(binding = 8) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel of the tile]
-// [group][tile][pixel]: 1 if anything is known, else 0
-layout(binding = 9) writeonly buffer Knowns { float knowns[]; };
-layout(binding = 10) readonly buffer Facets { uint facets[]; };  // three samples each
-layout(binding = 11) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
-layout(binding = 12) readonly buffer Columns { uint columns[]; };
-layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
-layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // move what is seen and what hides
-layout(binding = 15) readonly buffer Alphas { float alphas[]; };
+layout(binding = 8) readonly buffer Facets { uint facets[]; };  // three samples each
+layout(binding = 9) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
+layout(binding = 10) readonly buffer Columns { uint columns[]; };
+layout(binding = 11) readonly buffer Holdouts { uint holdouts[]; };
+layout(binding = 12) readonly buffer Cocs { float cocs[]; };   // move what is seen and what hides
+layout(binding = 13) readonly buffer Alphas { float alphas[]; };
 // the sample that each shows; solids come after all samples
-layout(binding = 16) readonly buffer Solids { uint solids[]; };
+layout(binding = 14) readonly buffer Solids { uint solids[]; };
 // CoCs of what opaque samples show, such as an image in a mirror
-layout(binding = 17) readonly buffer Shown { float shown[]; };
+layout(binding = 15) readonly buffer Shown { float shown[]; };
+layout(binding = 16) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel of the tile]
+// [group][tile][pixel]: 1 if anything is known, else 0
+layout(binding = 17) writeonly buffer Knowns { float knowns[]; };
 // kept between passes: [group][tile][pixel][light, weight]
 layout(binding = 18) buffer Sums { vec4 sums[]; };
 layout(push_constant) uniform Pushed { Push push; };

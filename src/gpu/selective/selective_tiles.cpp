@@ -4,7 +4,6 @@
 #include "gpu/selective/splat_stripe.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,43 +20,36 @@ constexpr std::uint32_t buffers = 14;
 // systems end work that takes seconds.
 constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
 
-template <typename Values>
-Buffer uploaded(Device &device, const Values &values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    Buffer buffer = device.buffer(bytes.size());
-    device.upload(buffer, bytes);
-    return buffer;
+// Returns the buffers of a stripe in the order of the shader's bindings. The last two are the picture.
+std::vector<Buffer> place(Device &device, const SplatScene &scene, const SplatStripe &stripe,
+                          std::size_t &uploaded) {
+    std::vector<Buffer> all;
+    const auto upload = [&](const auto &values) {
+        const auto bytes = std::as_bytes(std::span(values));
+        all.push_back(device.buffer(bytes.size()));
+        device.upload(all.back(), bytes);
+        uploaded += bytes.size();
+    };
+    upload(stripe.discs);
+    upload(stripe.shares);
+    upload(stripe.colours);
+    upload(stripe.pieces);
+    upload(stripe.sums);
+    upload(stripe.lists);
+    upload(stripe.cuts);
+    upload(stripe.tiles);
+    const std::size_t tiles = stripe.tiles.size(), pixels = tiles * splat_kernel::pixels;
+    const SplatState state = state_of(scene, tiles);
+    for (const std::size_t bytes :
+         {state.layers * sizeof(double), state.gaps * sizeof(std::int32_t),
+          state.states * sizeof(std::int32_t), stripe.passes > 1 ? state.running * sizeof(double) : 0,
+          stripe.groups * pixels * 4 * sizeof(float), pixels * sizeof(float)})
+        all.push_back(device.buffer(bytes));
+    return all;
 }
 
-// A stripe on the device.
-struct Placed {
-    std::array<Buffer, 8> in;
-    Buffer layers, gaps, states, running, values, alphas;
-
-    Placed(Device &device, const SplatScene &scene, const SplatStripe &stripe)
-        : Placed(device, stripe, state_of(scene, stripe.tiles.size())) {}
-
-private:
-    Placed(Device &device, const SplatStripe &stripe, const SplatState &state)
-        : in{uploaded(device, stripe.discs),   uploaded(device, stripe.shares),
-             uploaded(device, stripe.colours), uploaded(device, stripe.pieces),
-             uploaded(device, stripe.sums),    uploaded(device, stripe.lists),
-             uploaded(device, stripe.cuts),    uploaded(device, stripe.tiles)},
-          layers(device.buffer(state.layers * sizeof(double))),
-          gaps(device.buffer(state.gaps * sizeof(std::int32_t))),
-          states(device.buffer(state.states * sizeof(std::int32_t))),
-          running(device.buffer(stripe.passes > 1 ? state.running * sizeof(double) : 0)),
-          values(
-              device.buffer(stripe.groups * stripe.tiles.size() * splat_kernel::pixels * 4 * sizeof(float))),
-          alphas(device.buffer(stripe.tiles.size() * splat_kernel::pixels * sizeof(float))) {}
-};
-
 void run(Device &device, const Program &program, const SplatScene &scene, const SplatStripe &stripe,
-         const Placed &placed) {
-    std::vector<const Buffer *> all;
-    for (const Buffer &in : placed.in) all.push_back(&in);
-    all.insert(all.end(), {&placed.layers, &placed.gaps, &placed.states, &placed.running, &placed.values,
-                           &placed.alphas});
+         std::span<const Buffer> all) {
     const auto tiles = std::uint32_t(stripe.tiles.size());
     for (std::uint32_t pass = 0; pass < stripe.passes; ++pass)
         for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
@@ -97,13 +89,12 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
                                                std::min(steps_in_pass, device.most_turns() * 2 / 3));
         if (*std::ranges::max_element(stripe.steps) > device.most_turns())
             return "more steps than the device takes";
-        const Placed placed(device, scene, stripe);
-        for (const Buffer &in : placed.in) worker_.report.uploaded += in.bytes();
+        const std::vector<Buffer> placed = place(device, scene, stripe, worker_.report.uploaded);
         run(device, *program_, scene, stripe, placed);
         std::vector<float> values(stripe.groups * count * splat_kernel::pixels * 4),
             alphas(count * splat_kernel::pixels);
-        device.download(std::as_writable_bytes(std::span(values)), placed.values);
-        device.download(std::as_writable_bytes(std::span(alphas)), placed.alphas);
+        device.download(std::as_writable_bytes(std::span(values)), placed[buffers - 2]);
+        device.download(std::as_writable_bytes(std::span(alphas)), placed[buffers - 1]);
         parallel_for(count, [&](std::size_t t) {
             done(begin + t, {&values[t * splat_kernel::pixels * 4], &alphas[t * splat_kernel::pixels],
                              count * splat_kernel::pixels * 4});

@@ -20,7 +20,8 @@ layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
 layout(binding = 4) readonly buffer Weights { float weights[]; }; // [sample]
 layout(binding = 5) readonly buffer Values { uint values[]; };    // [channel][sample], bits
 layout(binding = 6) readonly buffer Ids { uint ids[]; };          // [channel]: 1 for ids, which are copied
-layout(binding = 7) buffer Ends { uint ends[]; };                 // [pixel]: see first_of()
+// [pixel]: see first_of(); then not 0: more samples in a pixel than frame.most_in_pixel
+layout(binding = 7) buffer Ends { uint ends[]; };
 // samples in the pixels that they fell into: index, dx, dy, 1 / z (bits)
 layout(binding = 8) buffer Landed { uvec4 landed[]; };
 // of each of these: the view, and the surface of the pixel or `none`
@@ -30,7 +31,6 @@ layout(binding = 10) buffer Means { double means[]; };
 layout(binding = 11) buffer Verdicts { uint verdicts[]; }; // [block]: photo_verdict()
 layout(binding = 12) buffer Emitted { uint emitted[]; }; // [pixel]: how many samples, later where they begin
 layout(binding = 13) buffer Results { uint results[]; }; // [z, dx, dy, weight, channels][sample], bits
-layout(binding = 14) buffer State { uint too_many; } state; // not 0: more samples in a pixel than frame.most_in_pixel
 
 uint item() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * threads + gl_LocalInvocationIndex; }
 uint pixel_count() { return uint(frame.width * frame.height); }

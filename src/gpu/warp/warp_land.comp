@@ -1,6 +1,6 @@
 #version 460
 // Reprojection: one thread takes a pixel of a view, and puts its samples into the pixels of the centre view that they
-// fall into. The first run counts them; a prefix sum then gives each pixel its range; the second run lists them. No
+// fall into. The first run counts them; the host then gives each pixel its range; the second run lists them. No
 // thread waits for another; warp_surfaces.comp sorts the samples, whose order is arbitrary.
 //
 // gl_WorkGroupID.z: the view.
@@ -28,7 +28,7 @@ void main() {
         const uint pixel = uint(int(cell_y) - frame.first_y) * uint(frame.width) + uint(int(cell_x) - frame.first_x);
         const uint at = atomicAdd(ends[pixel], 1);
         if (list == 0) {
-            if (at >= frame.most_in_pixel) state.too_many = 1;
+            if (at >= frame.most_in_pixel) ends[pixel_count()] = 1;
             continue;
         }
         precise const double dx = x - cell_x - 0.5lf, dy = y - cell_y - 0.5lf;

@@ -12,20 +12,6 @@ bool nearer(uvec4 a, uvec4 b) {
     return near != far ? near > far : a.x < b.x;
 }
 
-void sort_by_depth(uint first, uint end) {
-    for (uint i = first + 1; i < end; ++i) {
-        const uvec4 fallen = landed[i];
-        const uvec2 mark = marks[i];
-        uint at = i;
-        for (; at > first && nearer(fallen, landed[at - 1]); --at) {
-            landed[at] = landed[at - 1];
-            marks[at] = marks[at - 1];
-        }
-        landed[at] = fallen;
-        marks[at] = mark;
-    }
-}
-
 bool one_surface(uint a, uint b) {
     return is_one_surface(inverse_z_of(landed[a]), inverse_z_of(landed[b]), frame.tolerance);
 }
@@ -75,12 +61,13 @@ bool before(uvec2 a, uvec2 b, uint first) {
     return near != far ? near > far : a.y < b.y;
 }
 
-void sort_by_surface(uint first, uint end) {
+// Sorts by surface, or by depth.
+void sort(uint first, uint end, bool by_surface) {
     for (uint i = first + 1; i < end; ++i) {
         const uvec4 fallen = landed[i];
         const uvec2 mark = marks[i];
         uint at = i;
-        for (; at > first && before(mark, marks[at - 1], first); --at) {
+        for (; at > first && (by_surface ? before(mark, marks[at - 1], first) : nearer(fallen, landed[at - 1])); --at) {
             landed[at] = landed[at - 1];
             marks[at] = marks[at - 1];
         }
@@ -94,7 +81,7 @@ void main() {
     if (pixel >= pixel_count()) return;
     const uint first = first_of(pixel), end = ends[pixel];
     if (first == end) return;
-    sort_by_depth(first, end);
+    sort(first, end, false);
     claim_all(first, behind_centre(pixel, first, end), end);
-    sort_by_surface(first, end);
+    sort(first, end, true);
 }
