@@ -141,6 +141,7 @@ inline constexpr int side = size + 2;             // with the cells next to it, 
 inline constexpr uint cells = uint(side * side);
 inline constexpr uint chunk = 256; // partial samples at once
 inline constexpr uint team = 32;   // threads that share a block
+inline constexpr uint wide = 4;    // columns of pixels in which a thread looks for cracks
 // From one row of pixels to the next, owners (tile_data.glsl) are shifted by this many columns, so that several threads
 // share the pixels of an upright object.
 inline constexpr uint turn = 11;

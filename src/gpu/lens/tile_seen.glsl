@@ -172,50 +172,69 @@ bool hides(uint cell, float depth) {
            (opaque_at(cell - side) > limit && opaque_at(cell + side) > limit);
 }
 
-// The thread's cells that may show something else than their front sample, and what they show.
-struct Odd {
-    // The cell in the lower 16 bits; above them, bits: whether the cells left and right, above and below, and on each
-    // diagonal are both in front of it.
-    uint where;
-    uint shows; // a sample
+// The thread's cells that may show something else than their front sample, one bit each; and those of them where cells
+// left and right, above and below, and on each diagonal are both in front of the cell.
+uint odd[points];
+uvec4 odd_axes[points];
+
+// What these cells show, once that is found.
+struct Repaired {
+    uint cell, shows; // a sample
     uint64_t front;
 };
-Odd odd[own * points];
-uint odd_count;
+Repaired repaired[own * points];
+
+// The cells of a thread are `wide` columns of them.
+uint cell_of_thread(uint l, uint j) {
+    const uint across = size / wide, x = thread() % across * wide + j % wide, y = thread() / across * (own / wide) + j / wide;
+    return cell_of(l, ivec2(x, y));
+}
 
 // Finds empty cells and cracks, and where images may show.
 void find_odd() {
-    odd_count = 0;
-    for (uint l = 0; l < points; ++l) {
-        uint cell = cell_of(l, ivec2(thread() % size, thread() / size * own));
-        uvec3 above = uvec3(opaque_at(cell - side - 1), opaque_at(cell - side), opaque_at(cell - side + 1)),
-              here = uvec3(opaque_at(cell - 1), opaque_at(cell), opaque_at(cell + 1));
-        for (uint j = 0; j < own; ++j, cell += side) {
-            const uint down = cell + side;
-            const uvec3 below = uvec3(opaque_at(down - 1), opaque_at(down), opaque_at(down + 1));
-            const uvec4 in_front = uvec4(greaterThan(min(uvec4(here.x, above.yzx), uvec4(here.z, below.yxz)),
-                                                     uvec4(behind_crack(here.y))));
-            const uint axes = in_front.x | in_front.y << 1 | in_front.z << 2 | in_front.w << 3;
-            if (has_images || here.y == 0 || axes != 0) odd[odd_count++].where = cell | axes << 16;
+    [[dont_unroll]] for (uint l = 0; l < points; ++l) {
+        uint cell = cell_of_thread(l, 0) - 1, above[wide + 2], here[wide + 2], below[wide + 2], some = 0;
+        uvec4 axes = uvec4(0);
+        for (uint k = 0; k < wide + 2; ++k) {
+            above[k] = opaque_at(cell + k - side);
+            here[k] = opaque_at(cell + k);
+        }
+        [[dont_unroll]] for (uint j = 0; j < own; j += wide) {
+            cell += side;
+            for (uint k = 0; k < wide + 2; ++k) below[k] = opaque_at(cell + k);
+            for (uint k = 0; k < wide; ++k) {
+                const uvec4 nearest = min(uvec4(here[k], above[k + 1], above[k + 2], above[k]),
+                                          uvec4(here[k + 2], below[k + 1], below[k], below[k + 2]));
+                axes |= uvec4(greaterThan(nearest, uvec4(behind_crack(here[k + 1])))) << (j + k);
+                some |= uint(has_images || here[k + 1] == 0) << (j + k);
+            }
             above = here;
             here = below;
         }
+        odd[l] = some | axes.x | axes.y | axes.z | axes.w;
+        odd_axes[l] = axes;
     }
 }
 
 void repair_odd() {
-    for (uint n = 0; n < odd_count; ++n) {
-        const uint cell = odd[n].where & 0xffff;
-        const uint64_t torn = torn_at(cell, odd[n].where >> 16), key = front[cell];
+    uint count = 0;
+    for (uint l = 0, left = odd[0]; ; left &= left - 1) {
+        while (left == 0 && l + 1 < points) left = odd[++l];
+        if (left == 0) break;
+        const uint j = findLSB(left), cell = cell_of_thread(l, j);
+        const uvec4 axes = odd_axes[l] >> j & 1;
+        const uint64_t torn = torn_at(cell, axes.x | axes.y << 1 | axes.z << 2 | axes.w << 3), key = front[cell];
         const bool is_filler = upper_of(key) < hiding, hidden = is_filler && hides(cell, depth_of(upper_of(key)));
-        odd[n].front = torn != 0UL ? torn : hidden ? 0UL : key;
-        if (has_images) odd[n].shows = torn != 0UL || is_filler ? sample_of(odd[n].front) : image_at(cell);
+        const uint64_t shows = torn != 0UL ? torn : hidden ? 0UL : key;
+        repaired[count].cell = cell;
+        repaired[count].front = shows;
+        if (has_images) repaired[count].shows = torn != 0UL || is_filler ? sample_of(shows) : image_at(cell);
+        ++count;
     }
     barrier();
-    for (uint n = 0; n < odd_count; ++n) {
-        const uint cell = odd[n].where & 0xffff;
-        front[cell] = odd[n].front;
-        if (has_images) front[images_from + cell] = key_of(0, odd[n].shows);
+    for (uint n = 0; n < count; ++n) {
+        front[repaired[n].cell] = repaired[n].front;
+        if (has_images) front[images_from + repaired[n].cell] = key_of(0, repaired[n].shows);
     }
 }
 
