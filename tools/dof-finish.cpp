@@ -195,8 +195,8 @@ void run(const FinishCommand &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    return run_frames("dof-finish", "Corrects a gathered picture by a few rays through the same lens",
-                      argc, argv, [](CLI::App &app) {
+    return run_frames("dof-finish", "Corrects a gathered picture by a few rays through the same lens", argc,
+                      argv, [](CLI::App &app) {
                           const auto options = std::make_shared<FinishCommand>();
                           add_finish_options(app, *options);
                           return Job{[options](const ToolContext &tool) { run(*options, tool); }};

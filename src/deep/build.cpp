@@ -204,25 +204,29 @@ void append_pixels(Ldi &whole, const Ldi &piece) {
     for (std::size_t i = 1; i < piece.begin.size(); ++i) whole.begin.push_back(before + piece.begin[i]);
 }
 
-void insert_samples(Ldi &ldi, std::span<const SamplePlace> places, const Ldi &added) {
+void insert_samples(Ldi &ldi, const Ldi &added) {
+    std::vector<std::uint64_t> before; // the sample of `ldi` that follows each of `added`
+    for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel) {
+        auto [next, end] = ldi.pixel(pixel);
+        for (const std::uint64_t i : added.pixel(pixel)) {
+            while (next < end && ldi.z[next] <= added.z[i]) ++next;
+            before.push_back(next);
+        }
+    }
     for (std::size_t k = 0; k < arrays_beside_values + ldi.values.size(); ++k) {
         std::vector<float> &array = array_of(ldi, k);
         if (array.empty()) continue;
         const std::size_t size = array.size();
-        array.resize(size + places.size());
+        array.resize(size + before.size());
         auto end = array.begin() + std::ptrdiff_t(size); // of what has not moved yet
-        for (std::size_t n = places.size(); n-- > 0;) {
-            const auto from = array.begin() + std::ptrdiff_t(places[n].before);
+        for (std::size_t n = before.size(); n-- > 0;) {
+            const auto from = array.begin() + std::ptrdiff_t(before[n]);
             std::move_backward(from, end, end + std::ptrdiff_t(n) + 1);
             *(from + std::ptrdiff_t(n)) = array_of(added, k)[n];
             end = from;
         }
     }
-    std::size_t inserted = 0;
-    for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel) {
-        while (inserted < places.size() && places[inserted].pixel == pixel) ++inserted;
-        ldi.begin[pixel + 1] += inserted;
-    }
+    for (std::size_t pixel = 0; pixel < ldi.begin.size(); ++pixel) ldi.begin[pixel] += added.begin[pixel];
 }
 
 } // namespace sparselens

@@ -53,14 +53,9 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
 // of 0. Pieces that come one by one are never held twice.
 void append_pixels(Ldi &whole, const Ldi &piece);
 
-// Where a sample is inserted: into a pixel, before the sample with this index, which may be the end of the pixel.
-struct SamplePlace {
-    std::size_t pixel;
-    std::uint64_t before;
-};
-
-// Inserts the samples of `added`, in place. The places ascend, and `added` has the arrays that `ldi` has.
-void insert_samples(Ldi &ldi, std::span<const SamplePlace> places, const Ldi &added);
+// Inserts the samples of `added`, which are sorted by depth, into the same pixels of `ldi`, in place. Of two at one depth,
+// the sample of `ldi` comes first. `added` has the windows and the arrays that `ldi` has.
+void insert_samples(Ldi &ldi, const Ldi &added);
 
 // The solid of a sample made of others: the smallest solid among those that cover half or more.
 float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms);

@@ -14,13 +14,10 @@ namespace sparselens {
 
 namespace {
 
-// Needed and rendered pixels of one side of the frame. Light reaches down and across differently if pixels are not
-// square.
+// Needed and rendered pixels of one side of the frame.
 struct Side {
-    int rendered = 0;
-    double reach = 0;
-
-    void see(double to) { reach = std::max(reach, to); }
+    int rendered;
+    double reach;
     int needed() const { return int(std::ceil(std::min(reach, 65536.0))); }
 };
 
@@ -64,11 +61,11 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
     const Imath::V2i before = ldi.windows.display.min - ldi.windows.data.min,
                      after = ldi.windows.data.max - ldi.windows.display.max;
     if (std::min({before.x, before.y, after.x, after.y}) < 0) return {};
-    Side left{before.x}, top{before.y}, right{after.x}, bottom{after.y};
     const std::size_t alpha = ldi.alpha();
     const auto rgb = find_rgb(ldi.channels);
     const Imath::Box2i &display = ldi.windows.display;
     const LightReach light(lens, looks, ldi.windows);
+    WindowReach reach;
     std::vector<float> all, blurred; // the brightness of the samples
     for_each_border_pixel(display, [&](int x, int y) {
         const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
@@ -76,10 +73,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
             if (alpha != npos && ldi.values[alpha][i] < GatherTuning::border_counts) continue;
             const double coc = circle_of_confusion(lens, ldi.coc_z(i));
             const Imath::V2d spread = light.at(at, coc);
-            if (x == display.min.x) left.see(spread.x + at.x - shown.x);
-            if (x == display.max.x) right.see(spread.x + shown.x - at.x);
-            if (y == display.min.y) top.see(spread.y + at.y - shown.y);
-            if (y == display.max.y) bottom.see(spread.y + shown.y - at.y);
+            reach.add(display, {x, y}, spread, shown);
             float brightness = 0;
             for (const std::size_t k : rgb)
                 if (k != npos) brightness = std::max(brightness, ldi.values[k][i]);
@@ -87,7 +81,11 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
             if (std::max(spread.x, spread.y) >= GatherTuning::border_least_px) blurred.push_back(brightness);
         }
     });
-    const Side worst = std::max({left, right, top, bottom}, has_less);
+    const Side worst = std::max<Side>({{before.x, reach.before.x},
+                                       {after.x, reach.after.x},
+                                       {before.y, reach.before.y},
+                                       {after.y, reach.after.y}},
+                                      has_less);
     return {worst.needed(), worst.rendered, has_light_that_stands_out(all, blurred)};
 }
 

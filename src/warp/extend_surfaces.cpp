@@ -199,6 +199,16 @@ private:
     std::vector<bool> lamps_; // [sample]
 };
 
+std::vector<Hidden> find_hidden(const Sights &sights, const Ldi &ldi) {
+    const SurfaceExtension extension(sights, ldi);
+    std::vector<std::vector<Hidden>> rows(std::size_t(sights.frame.max.y - sights.frame.min.y + 1));
+    parallel_for(rows.size(),
+                 [&](std::size_t row) { rows[row] = extension.from_row(sights.frame.min.y + int(row)); });
+    std::vector<Hidden> hidden;
+    for (const std::vector<Hidden> &row : rows) hidden.insert(hidden.end(), row.begin(), row.end());
+    return hidden;
+}
+
 // A sample that is added.
 struct Added {
     std::size_t pixel;
@@ -225,34 +235,25 @@ std::vector<Added> samples_of(std::vector<Hidden> all) {
 void add(std::vector<Added> all, double scale, Ldi &ldi) {
     Ldi added = empty_like(ldi);
     added.begin.assign(1, 0);
-    std::vector<SamplePlace> places;
     const std::size_t alpha = ldi.alpha();
     for (Added &one : all) {
         const float z = float(depth_at_disparity(scale, one.depth));
         double weights = 0;
         for (const Term &term : one.terms) weights += term.coefficient;
         for (Term &term : one.terms) term.coefficient /= weights * double(alpha_at(ldi, alpha, term.index));
+        added.begin.resize(one.pixel + 2, added.begin.back());
         append(added, ldi, MergedSample{z, z, 0, 0, 1, z, 0, one.terms});
-        std::uint64_t before = ldi.pixel(one.pixel).from;
-        while (before < ldi.pixel(one.pixel).to && ldi.z[before] <= z) ++before;
-        places.push_back({one.pixel, before});
     }
-    insert_samples(ldi, places, added);
+    added.begin.resize(ldi.begin.size(), added.begin.back());
+    insert_samples(ldi, added);
 }
 
 } // namespace
 
-void extend_surfaces(const Sights &sights, Ldi &ldi) {
-    const Imath::Box2i &frame = sights.frame;
-    std::vector<std::vector<Hidden>> rows(std::size_t(frame.max.y - frame.min.y + 1));
-    {
-        const SurfaceExtension extension(sights, ldi);
-        parallel_for(rows.size(),
-                     [&](std::size_t row) { rows[row] = extension.from_row(frame.min.y + int(row)); });
-    }
-    std::vector<Hidden> hidden;
-    for (const std::vector<Hidden> &row : rows) hidden.insert(hidden.end(), row.begin(), row.end());
-    add(samples_of(std::move(hidden)), sights.scale, ldi);
+void extend_surfaces(Sights &&sights, Ldi &ldi) {
+    const double scale = sights.scale;
+    std::vector<Hidden> hidden = find_hidden(Sights(std::move(sights)), ldi);
+    add(samples_of(std::move(hidden)), scale, ldi);
 }
 
 void find_solids(const Sights &sights, Ldi &ldi) {
@@ -264,18 +265,23 @@ void find_solids(const Sights &sights, Ldi &ldi) {
                sights.relief_at(place) > WarpTuning::solid_relief_px * step &&
                sights.are_hidden(place, back * sights.scale, WarpTuning::solid_nearer_px);
     };
-    std::vector<float> solid(ldi.samples());
-    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
+    const auto width = std::size_t(ldi.windows.width());
+    std::vector<std::vector<std::uint64_t>> rows(std::size_t(ldi.windows.height()));
+    parallel_for(rows.size(), [&](std::size_t row) {
+        for (std::size_t p = row * width; p < (row + 1) * width; ++p)
             for (const std::uint64_t i : ldi.pixel(p)) {
                 if (!(alpha_at(ldi, alpha, i) >= half_covered)) continue;
                 const MergedSample s = sample_at(ldi, i);
                 const Imath::V2d place(0.5 + double(s.dx), 0.5 + double(s.dy));
-                if (is_solid(s, Imath::V2d(ldi.windows.pixel(p)) + place)) solid[i] = float(thickness);
+                if (is_solid(s, Imath::V2d(ldi.windows.pixel(p)) + place)) rows[row].push_back(i);
                 break; // only the first can be
             }
     });
-    if (std::ranges::any_of(solid, [](float of) { return of > 0; })) ldi.solid = std::move(solid);
+    for (const std::vector<std::uint64_t> &solid : rows)
+        for (const std::uint64_t i : solid) {
+            ldi.solid.resize(ldi.samples(), 0);
+            ldi.solid[i] = float(thickness);
+        }
 }
 
 } // namespace sparselens

@@ -60,8 +60,8 @@ private:
 // Surfaces that continue into a pixel from several sides at about the same depth become one sample: their mean, each
 // weighted by 1 / n. Small lamps, mirrors, glass and volumes do not continue.
 
-// Adds the samples to an LDI that is made of the views.
-void extend_surfaces(const Sights &sights, Ldi &ldi);
+// Adds the samples to an LDI that is made of the views. Frees the memory of `sights` before.
+void extend_surfaces(Sights &&sights, Ldi &ldi);
 
 // Finds which opaque surfaces count as solid for some distance behind their samples (Ldi::solid), so that a lens point
 // between the positions of the views does not look through a gap that no view saw open.

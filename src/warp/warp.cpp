@@ -184,9 +184,9 @@ Ldi Warper::run(Progress &progress) {
     if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     views_.forget_colours();
-    const Sights sights(placed(), scale_);
-    if (averages() && options_.extend_surfaces) extend_surfaces(sights, ldi);
+    Sights sights(placed(), scale_);
     find_solids(sights, ldi);
+    if (averages() && options_.extend_surfaces) extend_surfaces(std::move(sights), ldi);
     return ldi;
 }
 

@@ -30,16 +30,15 @@ TEST(InsertSamples, EqualAnLdiThatIsBuiltAnew) {
     std::mt19937 random(7);
     for (int round = 0; round < 50; ++round) {
         Ldi ldi = random_ldi(random, 12);
-        std::vector<SamplePlace> places;
-        Ldi added = empty_like(ldi);
+        Ldi added = random_ldi(random, 0);
         const Ldi built = build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
             const SampleRange there = ldi.pixel(pixel);
             for (std::uint64_t i = there.from; i <= there.to; ++i) {
+                const float z = float(i) + 0.5f * float(random() % 2); // as the sample before, or behind it
                 for (unsigned n = unsigned(random()) % 3; n > 0; --n) {
-                    places.push_back({pixel, i});
-                    const float value = float(places.size());
+                    const float value = float(added.z.size());
                     for (Ldi *to : {&out, &added}) {
-                        to->z.push_back(value);
+                        to->z.push_back(z);
                         to->weight.push_back(value);
                         for (std::vector<float> &values : to->values) values.push_back(value);
                     }
@@ -47,8 +46,9 @@ TEST(InsertSamples, EqualAnLdiThatIsBuiltAnew) {
                 }
                 if (i < there.to) append(out, ldi, i);
             }
+            added.begin.push_back(added.z.size());
         });
-        insert_samples(ldi, places, added);
+        insert_samples(ldi, added);
         EXPECT_EQ(ldi.begin, built.begin);
         EXPECT_EQ(ldi.z, built.z);
         EXPECT_EQ(ldi.weight, built.weight);

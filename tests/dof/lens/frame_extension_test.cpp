@@ -50,7 +50,7 @@ std::vector<float> values(const FrameExtension &of, int first, int last) {
 }
 
 FrameExtension beyond(const Ldi &ldi, const Imath::Box2i &frame) {
-    return extend_beyond_frame(ldi, lens, {}, frame, frame, look_beyond(ldi, lens, {}, frame));
+    return extend_beyond_frame(ldi, lens, frame, frame, look_beyond(ldi, lens, {}, frame));
 }
 
 TEST(FrameExtension, WhatLeavesItGoesOnAsFarAsTheLensSees) {
@@ -101,7 +101,7 @@ TEST(FrameExtension, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     ThinLens stopped = lens;
     stopped.radius = lens.radius / 2;
     const auto beside = [&](const ThinLens &by, double views_radius) {
-        return extend_beyond_frame(ldi, by, {}, frame, frame, {7, 1}, 1, views_radius);
+        return extend_beyond_frame(ldi, by, frame, frame, {7, 1}, 1, views_radius);
     };
     const FrameExtension open = beside(lens, 0), shut = beside(stopped, lens.radius);
     EXPECT_EQ(values(shut, 19, 26), (std::vector<float>{19, unknown, 19, 19, 23, 24, 24, 24}));
@@ -156,7 +156,7 @@ TEST(FrameExtension, WidthsAreCountedInPixelsOfThePicture) {
         cocs.insert(cocs.end(), 500, 5);
         const Ldi ldi = row_of(cocs);
         const Imath::Box2i frame = ldi.windows.data;
-        return values(extend_beyond_frame(ldi, lens, {}, frame, frame, {12, 1}, 3), -1, 0)[0] > 0;
+        return values(extend_beyond_frame(ldi, lens, frame, frame, {12, 1}, 3), -1, 0)[0] > 0;
     };
     EXPECT_TRUE(ends(9, 6, 12)); // one pixel narrower
     EXPECT_FALSE(ends(9, 5, 12));
@@ -207,7 +207,7 @@ TEST(FrameExtension, SmallLightsThatViewsCutOffGoOnAsDiscs) {
                : x >= 9 ? std::vector<Sample>{{depth_of(lens, 7), {1, 1}}}
                         : std::vector<Sample>{};
     });
-    const FrameExtension all = extend_beyond_frame(ldi, lens, {}, frame, frame, {20, 20});
+    const FrameExtension all = extend_beyond_frame(ldi, lens, frame, frame, {20, 20});
     const auto light = [&](int x, int y) {
         return double(all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()]) / 100;
     };

@@ -15,8 +15,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr double sky = std::numeric_limits<double>::infinity();
-
 // How far a disc reaches beyond a line that cuts it over a length of `width`, if it is `inner` wide at a distance of
 // `within` inside the line.
 float disc_beyond(double width, double inner, double within) {
@@ -35,56 +33,33 @@ float level_around(const std::vector<float> &bright, int at, int along_px) {
 
 } // namespace
 
-Border::Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across, double views_radius)
+Border::Border(const Ldi &ldi, const ThinLens &lens, int across, double views_radius)
     : ldi_(ldi), lens_(lens), across_(across), wider_(views_radius > 0 ? views_radius / lens.radius : 1),
-      light_(lens, looks, ldi.windows), alpha_(ldi.alpha()), brightness_(light_channels(ldi).brightness) {}
+      alpha_(ldi.alpha()), brightness_(light_channels(ldi).brightness) {}
 
-Imath::V2d Border::reach(const Imath::V2i &at) const {
-    const Imath::V2d middle = Imath::V2d(at) + Imath::V2d(0.5);
-    Imath::V2d most(0, 0);
-    const auto add = [&](double z) {
-        const Imath::V2d reach = light_.at(middle, circle_of_confusion(lens_, z));
-        most = {std::max(most.x, reach.x), std::max(most.y, reach.y)};
-    };
-    for (const std::uint64_t i : samples(at)) add(ldi_.coc_z(i));
-    if (!closed(samples(at))) add(sky);
-    return most;
-}
-
-Imath::V2d Border::shown_beside(const Imath::V2i &at) const {
-    const Imath::V2d middle = Imath::V2d(at) + Imath::V2d(0.5);
-    return light_.shown_at(middle) - middle;
-}
-
-struct Border::Line {
-    Imath::V2i first, step, out;
-    int count;
-    Imath::V2i pixel(int i, int n) const { return first + i * step + n * out; }
-};
-
-std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &out,
-                                      int count, bool looked) const {
-    const Line line{first, step, out, count};
-    const std::vector<float> bright = brightest(first, step, count);
-    std::vector<BorderPixel> found;
-    found.resize(std::size_t(count));
-    for (int i = 0; i < count; ++i) {
+std::vector<BorderPixel> Border::pixels(const FrameSide &side) const {
+    std::vector<float> bright(std::size_t(side.count),
+                              -1.0f); // of the brightest sample of each pixel; -1: none
+    for (int i = 0; i < side.count; ++i)
+        for (const std::uint64_t of : samples(side.pixel(i, 0)))
+            bright[std::size_t(i)] = std::max(bright[std::size_t(i)], brightness(of));
+    std::vector<BorderPixel> found(bright.size());
+    for (int i = 0; i < side.count; ++i) {
         BorderPixel &pixel = found[std::size_t(i)];
         pixel.leaving = leaving(
-            line, i, LampTuning::stands_out * level_around(bright, i, GatherTuning::border_along * across_),
-            looked);
-        pixel.open = !closed(samples(line.pixel(i, 0)));
-        if (!looked) find_end(pixel, line, i);
+            side, i, LampTuning::stands_out * level_around(bright, i, GatherTuning::border_along * across_));
+        pixel.open = !closed(samples(side.pixel(i, 0)));
+        if (!side.looked) find_end(pixel, side, i);
     }
     return found;
 }
 
-std::vector<BorderSample> Border::leaving(const Line &line, int i, float level, bool looked) const {
+std::vector<BorderSample> Border::leaving(const FrameSide &side, int i, float level) const {
     std::vector<BorderSample> found;
-    for (int n = 0; ldi_.windows.data.intersects(line.pixel(i, n)) && (n == 0 || looked); ++n)
-        for (const std::uint64_t of : samples(line.pixel(i, n))) {
-            if (looked && !seen_last(of, line, i, n)) continue;
-            const float reaches = brightness(of) > level ? extent(line, i, n, of, level)
+    for (int n = 0; ldi_.windows.data.intersects(side.pixel(i, n)) && (n == 0 || side.looked); ++n)
+        for (const std::uint64_t of : samples(side.pixel(i, n))) {
+            if (side.looked && !seen_last(of, side, i, n)) continue;
+            const float reaches = brightness(of) > level ? extent(side, i, n, of, level)
                                                          : std::numeric_limits<float>::infinity();
             found.push_back({std::uint32_t(of), shown_until(of), n, reaches});
         }
@@ -93,9 +68,9 @@ std::vector<BorderSample> Border::leaving(const Line &line, int i, float level, 
 
 // Whether no rim view looked farther at the surface of a sample, n pixels beyond the border; or looked only one pixel
 // farther and did not see it, because parallax may tear a surface.
-bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) const {
+bool Border::seen_last(std::uint64_t sample, const FrameSide &side, int i, int n) const {
     const double left = shown_until(sample) + 0.5 - n;
-    return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
+    return left < 1 || (left < 2 && !shows(samples(side.pixel(i, n + 1)), depth(sample)));
 }
 
 // The disparity of the first opaque sample of a pixel; below 0, and so behind all, if there is none.
@@ -107,15 +82,15 @@ double Border::front(const Imath::V2i &at) const {
 
 // Finds how far the surface that the border cuts off continues. It is judged by other surfaces of the row that lie in
 // front of their surroundings, are as near, and are about as wide.
-void Border::find_end(BorderPixel &of, const Line &line, int i) const {
-    const double cut = front(line.pixel(i, 0));
+void Border::find_end(BorderPixel &of, const FrameSide &side, int i) const {
+    const double cut = front(side.pixel(i, 0));
     if (cut < 0) return;
     const int inwards = GatherTuning::border_inwards * across_;
     int width = 0, least = inwards;
     double last = cut;
     bool nearer = true; // whether the current surface is nearer than the one before it
-    for (int from = 0, n = 1; n < inwards && ldi_.windows.data.intersects(line.pixel(i, -n)); ++n) {
-        const double here = front(line.pixel(i, -n));
+    for (int from = 0, n = 1; n < inwards && ldi_.windows.data.intersects(side.pixel(i, -n)); ++n) {
+        const double here = front(side.pixel(i, -n));
         if (!is_one_surface(here, last)) {
             const bool ends = nearer && here < last;
             if (from == 0 && !ends) return;
@@ -151,10 +126,10 @@ float Border::light_at(const Imath::V2i &at, double there) const {
 }
 
 // How far a disc reaches of which a sample, n pixels beyond the border, shows a part.
-float Border::extent(const Line &line, int at, int n, std::uint64_t sample, float level) const {
+float Border::extent(const FrameSide &side, int at, int n, std::uint64_t sample, float level) const {
     const double there = depth(sample);
     const auto light = [&](int i, int row) {
-        const float value = i < 0 || i >= line.count ? 0 : light_at(line.pixel(i, row), there);
+        const float value = i < 0 || i >= side.count ? 0 : light_at(side.pixel(i, row), there);
         return value > level ? value : 0;
     };
     int first = at, last = at;
@@ -175,19 +150,19 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
     return disc_beyond(here, 0, 0.5 * across_);
 }
 
-// The brightest sample of each pixel; -1: none.
-std::vector<float> Border::brightest(const Imath::V2i &first, const Imath::V2i &step, int count) const {
-    std::vector<float> bright(std::size_t(count), -1.0f);
-    for (int i = 0; i < count; ++i)
-        for (const std::uint64_t of : samples(first + i * step))
-            bright[std::size_t(i)] = std::max(bright[std::size_t(i)], brightness(of));
-    return bright;
-}
-
 float Border::brightness(std::uint64_t i) const {
     float most = 0;
     for (const std::size_t k : brightness_) most = std::max(most, ldi_.values[k][i]);
     return most;
+}
+
+void WindowReach::add(const Imath::Box2i &window, const Imath::V2i &at, const Imath::V2d &by,
+                      const Imath::V2d &shown) {
+    const Imath::V2d beside = shown - Imath::V2d(at) - Imath::V2d(0.5);
+    for (const int k : {0, 1}) {
+        if (at[k] == window.min[k]) before[k] = std::max(before[k], by[k] - beside[k]);
+        if (at[k] == window.max[k]) after[k] = std::max(after[k], by[k] + beside[k]);
+    }
 }
 
 } // namespace sparselens

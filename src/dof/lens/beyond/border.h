@@ -1,10 +1,8 @@
-// Finds what leaves the frame at the pixels of its border: which samples, how far the small lights among them continue,
-// and how far their light reaches.
+// Finds what leaves the frame at the pixels of its border: which samples, and how far the small lights among them
+// continue; and how far the light of border pixels reaches.
 #pragma once
 
 #include "deep/ldi.h"
-#include "lens/lens_looks.h"
-#include "lens/psf.h"
 #include "lens/thin_lens.h"
 
 #include <Imath/ImathBox.h>
@@ -15,6 +13,11 @@
 #include <vector>
 
 namespace sparselens {
+
+// The samples of a pixel; none outside of the data window.
+inline SampleRange samples_at(const Ldi &ldi, const Imath::V2i &at) {
+    return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y)) : SampleRange{};
+}
 
 // A sample that continues beyond the frame.
 struct BorderSample {
@@ -39,38 +42,36 @@ struct BorderPixel {
     int ends = std::numeric_limits<int>::max(), behind = 0;
 };
 
+// A side of the frame.
+struct FrameSide {
+    Imath::V2i first, step, out; // its first pixel; from there to the next; away from the frame
+    int count;                   // of pixels
+    bool looked;                 // whether rim views looked past it
+
+    // The pixel that is n pixels beyond the i-th.
+    Imath::V2i pixel(int i, int n) const { return first + i * step + n * out; }
+};
+
 class Border {
 public:
     // `across`: pixels, across and down, that become one pixel of the picture, in which distances are counted.
     // `views_radius`: the radius of the lens from whose rim views looked, scene units; 0: the radius of `lens`.
-    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across, double views_radius = 0);
+    Border(const Ldi &ldi, const ThinLens &lens, int across, double views_radius);
 
-    // How far the light of a pixel reaches, in x and y, pixels.
-    Imath::V2d reach(const Imath::V2i &at) const;
-    // The offset to the right and down from a pixel to what the magnified picture shows there, pixels.
-    Imath::V2d shown_beside(const Imath::V2i &at) const;
-    // Returns the pixels of a side: `count` pixels from `first` on, along `step`; `out` points away from the frame.
-    // `looked`: whether rim views looked past this side.
-    std::vector<BorderPixel> side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &out,
-                                  int count, bool looked) const;
+    std::vector<BorderPixel> pixels(const FrameSide &side) const;
     // Whether these samples of a pixel let no light through.
     bool closed(const SampleRange &range) const;
-    SampleRange samples(const Imath::V2i &at) const {
-        return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
-    }
+    SampleRange samples(const Imath::V2i &at) const { return samples_at(ldi_, at); }
     double depth(std::uint64_t sample) const { return disparity(lens_, double(ldi_.z[sample])); }
 
 private:
-    struct Line;
-    std::vector<BorderSample> leaving(const Line &line, int i, float level, bool looked) const;
-    bool seen_last(std::uint64_t sample, const Line &line, int i, int n) const;
-    void find_end(BorderPixel &of, const Line &line, int i) const;
+    std::vector<BorderSample> leaving(const FrameSide &side, int i, float level) const;
+    bool seen_last(std::uint64_t sample, const FrameSide &side, int i, int n) const;
+    void find_end(BorderPixel &of, const FrameSide &side, int i) const;
     double front(const Imath::V2i &at) const;
     bool shows(const SampleRange &range, double there) const;
-    float extent(const Line &line, int at, int n, std::uint64_t sample, float level) const;
+    float extent(const FrameSide &side, int at, int n, std::uint64_t sample, float level) const;
     float light_at(const Imath::V2i &at, double there) const;
-    std::vector<float> brightest(const Imath::V2i &first, const Imath::V2i &step, int count) const;
-
     float brightness(std::uint64_t sample) const;
     // How far rim views showed its surface beyond the frame, pixels.
     double shown_until(std::uint64_t sample) const { return wider_ * depth(sample); }
@@ -79,9 +80,16 @@ private:
     const ThinLens &lens_;
     int across_;
     double wider_; // the radius of the lens from whose rim views looked, divided by this lens's
-    LightReach light_;
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;
+};
+
+// How far light reaches beyond the sides of a window, pixels: to the left and up, to the right and down.
+struct WindowReach {
+    Imath::V2d before{0, 0}, after{0, 0};
+
+    // Adds the light of a pixel of the border, which reaches `by` pixels from where the picture shows it.
+    void add(const Imath::Box2i &window, const Imath::V2i &at, const Imath::V2d &by, const Imath::V2d &shown);
 };
 
 // Calls visit(x, y) once for each of the outermost pixels of a window.

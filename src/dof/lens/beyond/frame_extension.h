@@ -47,12 +47,9 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
 // above are counted in pixels of the picture, except what rim views saw. `views_radius`: the radius of the lens from
 // whose rim the views looked, scene units; disparity in the pixels of that lens says what they saw. 0: the
 // radius of `lens`.
-FrameExtension extend_beyond_frame(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                                   const Imath::Box2i &frame, const Imath::Box2i &known,
-                                   const Imath::V2i &reach, int across = 1, double views_radius = 0);
-FrameExtension extend_beyond_frame(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks,
-                                   const Imath::Box2i &frame, const Imath::Box2i &known,
-                                   const Imath::V2i &reach, int across = 1, double views_radius = 0);
+FrameExtension extend_beyond_frame(Ldi ldi, const ThinLens &lens, const Imath::Box2i &frame,
+                                   const Imath::Box2i &known, const Imath::V2i &reach, int across = 1,
+                                   double views_radius = 0);
 
 // Returns gather(ldi, options.lens) of the continued LDI, or of `ldi` itself if options.beyond is not set
 // (dof/methods.h). Pass an Ldi&& if `ldi` may be used up, else a const Ldi&.
@@ -61,9 +58,9 @@ auto gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &windo
                    const Gather &gather) {
     if (!options.beyond) return gather(ldi, options.lens);
     auto by = options.lens;
-    const FrameExtension all = extend_beyond_frame(std::forward<AnyLdi>(ldi), lens, by.looks,
-                                                   options.beyond->frame, by.known.value_or(window),
-                                                   options.beyond->reach, by.across, options.views_radius);
+    const FrameExtension all =
+        extend_beyond_frame(std::forward<AnyLdi>(ldi), lens, options.beyond->frame, by.known.value_or(window),
+                            options.beyond->reach, by.across, options.views_radius);
     by.known = all.known;
     by.unseen = all.unseen;
     by.seen = options.beyond->frame;
