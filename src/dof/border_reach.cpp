@@ -1,18 +1,46 @@
 #include "dof/border_reach.h"
 
 #include "deep/build.h"
-#include "dof/lens/beyond/border.h"
 #include "dof/tuning.h"
 #include "lens/lamp_spread.h"
 #include "lens/psf.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace sparselens {
 
 namespace {
+
+// How far light reaches beyond the sides of a window, pixels: to the left and up, to the right and down.
+struct WindowReach {
+    Imath::V2d before{0, 0}, after{0, 0};
+
+    // Adds the light of a pixel of the border, which reaches `by` pixels from where the picture shows it.
+    void add(const Imath::Box2i &window, const Imath::V2i &at, const Imath::V2d &by,
+             const Imath::V2d &shown) {
+        const Imath::V2d beside = shown - Imath::V2d(at) - Imath::V2d(0.5);
+        for (const int k : {0, 1}) {
+            if (at[k] == window.min[k]) before[k] = std::max(before[k], by[k] - beside[k]);
+            if (at[k] == window.max[k]) after[k] = std::max(after[k], by[k] + beside[k]);
+        }
+    }
+};
+
+// Calls visit(x, y) once for each of the outermost pixels of a window.
+template <typename Visit>
+void for_each_border_pixel(const Imath::Box2i &box, const Visit &visit) {
+    for (int x = box.min.x; x <= box.max.x; ++x) {
+        visit(x, box.min.y);
+        if (box.max.y > box.min.y) visit(x, box.max.y);
+    }
+    for (int y = box.min.y + 1; y < box.max.y; ++y) {
+        visit(box.min.x, y);
+        if (box.max.x > box.min.x) visit(box.max.x, y);
+    }
+}
 
 // Needed and rendered pixels of one side of the frame.
 struct Side {
@@ -87,6 +115,29 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
                                        {after.y, reach.after.y}},
                                       has_less);
     return {worst.needed(), worst.rendered, has_light_that_stands_out(all, blurred)};
+}
+
+Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
+                       const Imath::Box2i &frame) {
+    const LightReach light(lens, looks, ldi.windows);
+    const std::size_t alpha = ldi.alpha();
+    WindowReach reach;
+    for_each_border_pixel(frame, [&](int x, int y) {
+        const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
+        const auto add = [&](double z) {
+            reach.add(frame, {x, y}, light.at(at, circle_of_confusion(lens, z)), shown);
+        };
+        const bool is_there = ldi.windows.data.intersects(Imath::V2i(x, y));
+        const SampleRange samples = is_there ? ldi.pixel(ldi.windows.index(x, y)) : SampleRange{};
+        for (const std::uint64_t i : samples) add(ldi.coc_z(i));
+        if (lets_through(ldi, alpha, samples)) add(std::numeric_limits<double>::infinity());
+    });
+    const Imath::V2i size = frame.size() + Imath::V2i(1);
+    const double most = std::max(size.x, size.y) / 2.0;
+    const auto pixels = [&](int k) {
+        return int(std::ceil(std::min(std::max(reach.before[k], reach.after[k]), most)));
+    };
+    return {pixels(0), pixels(1)};
 }
 
 } // namespace sparselens

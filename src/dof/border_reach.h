@@ -22,6 +22,11 @@ struct BorderReach {
 // times as bright as 31 of 32 samples of the border. The looks also decide how far light reaches (lens/psf.h).
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
+// How far the lens looks beyond the frame, in pixels across and down: as far as light of the outermost pixels reaches
+// (lens/psf.h), but at most half of the frame's longer side. Only the outermost pixels of the LDI are needed.
+Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
+                       const Imath::Box2i &frame);
+
 // Returns an LDI with only the outermost pixels of the display window, or of `window`.
 Ldi border_of(const PackedRows &rows);
 Ldi border_of(const PackedRows &rows, const Imath::Box2i &window);

@@ -5,6 +5,7 @@
 #include "deep/flatten.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"
+#include "dof/border_reach.h"
 #include "dof/lens/beyond/frame_extension.h"
 #include "lens/thin_lens.h"
 

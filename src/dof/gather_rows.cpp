@@ -5,7 +5,6 @@
 #include "deep/channel_alpha.h"
 #include "deep/unseen.h"
 #include "dof/border_reach.h"
-#include "dof/lens/beyond/frame_extension.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/merge_layers.h"
@@ -90,7 +89,7 @@ struct Band {
 };
 
 // The number of rows of the picture, from its first or last one, that decide what continues beyond it
-// (beyond/border.h).
+// (beyond/frame_extension.h).
 int border_rows(const PictureOptions &options) {
     return GatherTuning::border_inwards * options.gather.lens.across;
 }

@@ -1,6 +1,7 @@
 // Continuation beyond the frame: by hand on a row of pixels, compared with a slow version of the rule, and through a
 // lens, compared with the convolution of a shape that continues for ever.
 #include "base/grid.h"
+#include "dof/border_reach.h"
 #include "dof/gather_picture.h"
 #include "dof/lens/beyond/frame_extension.h"
 #include "lens/lens_points.h"
@@ -98,8 +99,7 @@ TEST(FrameExtension, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
     cocs.insert(cocs.end(), {NAN, NAN, NAN, near, near});
     const Ldi ldi = row_of(cocs);
     const Imath::Box2i frame({0, 0}, {19, 0});
-    ThinLens stopped = lens;
-    stopped.radius = lens.radius / 2;
+    const ThinLens stopped{.radius = lens.radius / 2, .focal_px = lens.focal_px, .focus = lens.focus};
     const auto beside = [&](const ThinLens &by, double views_radius) {
         return extend_beyond_frame(ldi, by, frame, frame, {7, 1}, 1, views_radius);
     };
@@ -131,7 +131,6 @@ TEST(FrameExtension, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     EXPECT_EQ(bars(2, {}, -2.9), (std::vector<float>{0, 0, 0, 0, 0}));
 }
 
-// With 3 x 3 sub-pixels, the bars are as wide and as far apart in pixels of the picture as those above.
 // A see-through thing in the middle of a picture of few rows ends no surface, so it does not come back at the border.
 TEST(FrameExtension, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
     for (const int rows : {64, 72, 95, 96, 120}) {
@@ -148,6 +147,7 @@ TEST(FrameExtension, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
     }
 }
 
+// With 3 x 3 sub-pixels, the bars are as wide and as far apart in pixels of the picture as those further above.
 TEST(FrameExtension, WidthsAreCountedInPixelsOfThePicture) {
     const auto ends = [](int cut, int width, int apart) {
         std::vector<double> cocs(std::size_t(cut), -2.9);

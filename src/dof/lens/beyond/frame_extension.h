@@ -21,7 +21,6 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "lens/lens_looks.h"
 #include "lens/thin_lens.h"
 
 #include <utility>
@@ -36,11 +35,6 @@ struct FrameExtension {
     Imath::Box2i known;
     std::vector<char> unseen;
 };
-
-// How far the lens looks beyond the frame, in pixels across and down: as far as light of the outermost pixels reaches
-// (lens/psf.h), but at most half of the frame's longer side. Only the outermost pixels of the LDI are needed.
-Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                       const Imath::Box2i &frame);
 
 // `known`: the rows of the frame whose samples the LDI has. The picture is continued only beyond those of its sides
 // that are sides of the frame. `across`: pixels, across and down, that become one pixel of the picture; the distances
