@@ -111,6 +111,12 @@ for fstop in 0.5 8; do
     in_blender small.blend --python-expr "import bpy; bpy.context.scene.camera.data.dof.aperture_fstop = $fstop" -P "$views" -- --overscan 0 -o auto$fstop --samples 4 --views 1
     grep -qxF "sparselens: frame 1: $wanted" said || fail "--supersample auto, not '$wanted': $(grep supersample said)"
 done
+# One number for a whole shot: what its first, middle or last frame needs.
+in_blender small.blend --python-expr "import bpy
+lens = bpy.context.scene.camera.data.dof
+for frame, lens.aperture_fstop in ((1, 64), (3, 0.5)): lens.keyframe_insert('aperture_fstop', frame=frame)" -P "$views" -- "${plain[@]:0:2}" -o shot --samples 4 --views 0 --frames 1-3
+[ "$(grep -c 'frame 1: .* supersample 1$' said)/$(grep -c 'frame 3: .* supersample 2$' said)" = 1/1 ] || fail "--supersample auto, a shot: $(cat said)"
+for frame in 1 2 3; do exrheader shot/center.000$frame.exr | grep -F 'ldi.supersample (type int): 2' >/dev/null || fail "--supersample auto: frame $frame"; done
 for view in center view_0; do exrheader auto0.5/$view.exr | grep -F 'ldi.supersample (type int): 2' >/dev/null || fail "--supersample auto: $view is of the picture's size"; done
 ! exrheader auto8/center.exr | grep -F 'ldi.supersample' >/dev/null || fail "--supersample auto: sub-pixels without edges"
 in_blender small.blend -P "$views" -- -o few --samples 3 --views 0 --overscan 0

@@ -57,6 +57,8 @@ def render_views(options, scene, eyes, manner, say):
                    manner.supersample)
         return views_of_plan(plan)
 
+    if options.plan and manner.supersample == AUTO:
+        manner.supersample = 1  # until views_at() knows it
     folder, count = folder_of(options.output), Count()
     render_now(scene, views_steps(
         scene, frames_of(options, scene), folder, views_at, eyes, manner,

@@ -56,8 +56,8 @@ def add_options(add, exclusive):
     add("--supersample", type=number_or_auto, default=AUTO, metavar="N",
         help="render N times the width and height with 1/N^2 of the samples "
              "per pixel; dof-gather makes a picture of the scene's size; "
-             "auto: 2 at frames where ldi-plan advises it, else 1 (default: "
-             "auto)")
+             "auto: 2 if ldi-plan advises it for the first, the middle or the "
+             "last frame, else 1 (default: auto)")
     add("--overscan", type=number_or_auto, default=AUTO, metavar="PX",
         help="pixels of the picture to render beyond each side; auto: as "
              "many as the blur at the border of each frame needs (default: "

@@ -181,26 +181,30 @@ def check_folder(folder, eyes, frames, several):
                          % (found, os.path.basename(bpy.data.filepath)))
 
 
-def manner_steps(scene, folder, ending, manner):
-    """The manner of a frame, with the number of its sub-pixels: that of its
-    first moment."""
+def settle_supersample(scene, folder, frames, several, manner):
+    """Sets `supersample` if it is AUTO: to the most that the first, the middle
+    and the last frame need, so that it does not change within a shot."""
     if manner.supersample != AUTO:
-        return manner
-    eye = eyes_of(scene)[0]
-    center = manner.path(os.path.join(
-        folder, "center" + eye.file_suffix + ending))
-    with only_layer(scene, manner.layer):
-        found = yield from supersample_steps(
-            scene, center, eye, manner.keep, used_layers(scene),
-            manner.shutter)
-    return replace(manner, supersample=found)
+        return
+    found, eye = 1, eyes_of(scene)[0]
+    for frame in sorted({frames[0], frames[len(frames) // 2], frames[-1]}):
+        scene.frame_set(frame)
+        moment = next(iter(moments_of(scene, frame, manner.shutter)))
+        center = replace(manner, moment=moment).path(os.path.join(
+            folder, "center" + eye.file_suffix + frame_ending(frame, several)))
+        with at_moment(scene, moment), only_layer(scene, manner.layer):
+            found = max(found, (yield from supersample_steps(
+                scene, center, eye, manner.keep, used_layers(scene),
+                manner.shutter)))
+    manner.supersample = found
 
 
 def views_steps(scene, frames, folder, views_at, eyes, manner, count,
-                several=False, say=warn):
+                several=False, say=warn, shot=()):
     """The views of a list of frames; views_at(frame) returns those of one
     frame. With `several` the names carry the frame's number. Warnings go to
-    `say`, once for all frames. Yields the renders, in words."""
+    `say`, once for all frames. `shot`: all frames of the shot, if they are
+    more. Yields the renders, in words."""
     for text in check_scene(scene, manner.shutter):
         say(text)
     if manner.finish:
@@ -220,18 +224,17 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     os.makedirs(folder, exist_ok=True)
     before, within = scene.frame_current, scene.frame_subframe
     try:
+        yield from settle_supersample(
+            scene, folder, shot or frames, several, manner)
         for frame in frames:
             scene.frame_set(frame)
             views, ending = views_at(frame), frame_ending(frame, several)
-            at_frame = manner
             for moment in moments_of(scene, frame, manner.shutter):
                 with at_moment(scene, moment):
-                    at_frame = yield from manner_steps(
-                        scene, folder, ending,
-                        replace(at_frame, moment=moment))
                     for eye in eyes:
-                        yield from eye_steps(scene, folder, ending, views, eye,
-                                             at_frame, count)
+                        yield from eye_steps(
+                            scene, folder, ending, views, eye,
+                            replace(manner, moment=moment), count)
             for eye in eyes if manner.finish else ():
                 yield from halves_steps(
                     scene, lambda name: os.path.join(

@@ -89,7 +89,8 @@ class Pictures:
                 self.scene.frame_set(frame)
                 yield from views_steps(
                     self.scene, [frame], self.views, lambda _: views,
-                    self.eyes, self.manner, self.count, several, self.say)
+                    self.eyes, self.manner, self.count, several, self.say,
+                    frames)
                 for eye in self.eyes:
                     files = pictures.Files(
                         self.views, eye.file_suffix,
