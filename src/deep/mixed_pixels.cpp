@@ -31,6 +31,7 @@ std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::
     if (residual > largest_residual) return {};
     for (int k = 0; k < 3; ++k)
         if ((1 - share) * b[k] > c[k]) share = 1 - std::max(c[k], 0.0) / b[k];
+    if (share > prior.most) return {};
     if (!(share >= least_mixed_share && share <= 1 - least_mixed_share)) return {}; // also if a colour is NaN
     return Mix{share, residual};
 }

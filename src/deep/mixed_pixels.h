@@ -28,9 +28,9 @@ struct MixPrior {
 inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
     mostly_f{0.05, 1, 0.5, 1}; // these: not mixed
 
-// Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel. Returns
-// nothing if F and B are too similar, if c is farther from the line than largest_residual, if the share of F or B is
-// negligible, or if a colour is NaN.
+// Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel: a is as large
+// as that needs. Returns nothing if that is more than the prior allows, if F and B are too similar, if c is farther from
+// the line than largest_residual, if the share of F or B is negligible, or if a colour is NaN.
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 

@@ -53,6 +53,14 @@ TEST(Unmix, LeavesLightInFront) {
     }
 }
 
+// A pixel of the sky beside another one that holds a twentieth of a lamp: what is left of it without that one is dark.
+TEST(Unmix, TheRestIsNotMoreThanTheDepthAllows) {
+    const V3d lamp{8, 10, 15}, sky{0.5, 0.45, 0.55}, brighter = mixed(0.05, lamp, sky);
+    EXPECT_FALSE(unmix(sky, lamp, brighter, mostly_b, 0.1));
+    EXPECT_TRUE(unmix(sky, lamp, brighter, no_prior, 0.1));
+    EXPECT_TRUE(unmix(brighter, lamp, sky, mostly_b, 0.1));
+}
+
 TEST(Unmix, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(unmix(red, red, red, mostly_f, 0.2));
     EXPECT_FALSE(unmix(red, red, green, mostly_f, 0.2));   // not mixed

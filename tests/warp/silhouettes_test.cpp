@@ -162,6 +162,25 @@ TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
     }
 }
 
+// Bright letters with a slanted edge before the sky. The pixels whose middle shows the sky hold a twentieth of a letter, or
+// nothing of it; all of them lie beside a letter's pixel.
+TEST(Silhouettes, TheSkyBesideBrightLettersHasNoDarkEdge) {
+    const Imath::V3f letter(7.5f, 10.5f, 15), sky(0.5f, 0.45f, 0.55f);
+    const View view = make_view(windows_of_size(20, 12), {0, 0}, [&](int x, int y) {
+        const float share = x < 5 + y ? 1 : x == 5 + y ? 0.05f : 0;
+        const Imath::V3f c = share * letter + (1 - share) * sky;
+        return ViewPixel{.z = share == 1 ? 2 : inf, .r = c.x, .g = c.y, .b = c.z};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    EXPECT_EQ(ldi.samples(), 20u * 12 + 12);
+    for (std::uint64_t i = 0; i < ldi.samples(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const float colour = ldi.values[std::size_t(k)][i] / ldi.values[3][i];
+            EXPECT_NEAR(colour, ldi.z[i] == 2 ? letter[k] : sky[k], 0.01f * colour) << i;
+        }
+}
+
 // In a lamp of three by three pixels one pixel is pure; the mixed colours of its edges are not its colour.
 TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     const auto share = [](int x, int y) {
