@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -50,7 +51,7 @@ public:
     // The verdict if the view stands at `position`, and its optical axis meets the picture farther right and down by
     // `axis` display widths than its framing says. A pixel in front of what the centre view shows contradicts by 1; a
     // pixel on the same surface contradicts by the relative difference between its colour and the colours of this
-    // surface around it. Its depth contradicts if it is in front, or nearer or farther than that surface is there. One
+    // surface around it. Its depth contradicts if it is in front, or nearer or farther than all that is there. One
     // pixel in `every` is tested.
     PoseVerdict at(const Imath::V2d &position, const Imath::V2d &axis = {0, 0}, std::size_t every = 1) const;
 
@@ -351,13 +352,18 @@ PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis,
 // it.
 void PoseEvidence::ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const {
     Imath::V3d least(0), most(0);
-    double nearest = pixel.z, farthest = pixel.z;
+    double nearest = std::numeric_limits<double>::infinity(),
+           farthest = 0; // a steep surface may lie anywhere between
     bool seen = false, hidden = false;
     for (const double dx : {-0.5, 0.5})
         for (const double dy : {-0.5, 0.5}) {
             const Imath::V2i p(int(std::floor(landed.x + dx)), int(std::floor(landed.y + dy)));
-            if (!centre_.samples.windows.data.intersects(p) || !centre_.shows_something(p)) continue;
-            const double z = centre_.depth(p);
+            const bool inside = centre_.samples.windows.data.intersects(p);
+            if (inside && !centre_.shows_something(p)) continue;
+            const double z = inside ? centre_.depth(p) : pixel.z; // beyond the frame there may be anything
+            nearest = std::min(nearest, z);
+            farthest = std::max(farthest, z);
+            if (!inside) continue;
             hidden = hidden || pixel.z > same_depth * z;
             if (pixel.z > same_depth * z || z > same_depth * pixel.z) continue;
             const Imath::V3d there = centre_.colour(p);
@@ -365,8 +371,6 @@ void PoseEvidence::ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict
                 least[k] = seen ? std::min(least[k], there[k]) : there[k];
                 most[k] = seen ? std::max(most[k], there[k]) : there[k];
             }
-            nearest = seen ? std::min(nearest, z) : z;
-            farthest = seen ? std::max(farthest, z) : z;
             seen = true;
         }
     if (!seen && hidden) return;

@@ -109,6 +109,26 @@ TEST(PoseCheck, MirrorsDoNotMislead) {
     }
 }
 
+// A floor up to the horizon, whose depth changes by more than a pose may err from one row to the next.
+View floor_seen_from(const Imath::V2d &position) {
+    return make_view(windows_of_size(160, 120), position, [&](int px, int py) {
+        const double down = (py + 0.5 - 60) / focal_px,
+                     z = down > 0 ? std::min(10.0, (1 + position.y) / down) : 10;
+        const Imath::V2d p((px + 0.5 - 80) / focal_px * z + position.x, z < 10 ? z : -down * z + position.y);
+        return ViewPixel{.z = float(z), .r = pattern(p.x, p.y, z < 10 ? 2 : 10)};
+    });
+}
+
+TEST(PoseCheck, AFloorDoesNotMislead) {
+    const View centre = floor_seen_from({0, 0});
+    for (const double height : {0.02, 0.04, 0.06, -0.04}) {
+        const View view = floor_seen_from({0, height});
+        EXPECT_FALSE(better_position(centre, view, focal_px)) << height;
+        EXPECT_FALSE(turned_by(centre, view, focal_px)) << height;
+        EXPECT_TRUE(better_position(centre, said_to_stand_at(view, {0, -height}), focal_px)) << height;
+    }
+}
+
 // A window fills the picture: everything is farther than its panes, and moves less.
 TEST(PoseCheck, WithoutEdgesOfDepthNeitherDistancesNorTurnsAreTold) {
     const auto window = [](const Imath::V2d &position) {
