@@ -240,7 +240,8 @@ std::string InvalidValues::text() const {
     add(alphas, "alpha outside 0..1", "alphas outside 0..1");
     add(depths, "depth that is not above 0", "depths that are not above 0");
     add(places, "invalid position or weight", "invalid positions or weights");
-    return fmt::format("{}: replaced from neighbouring pixels, alpha clamped", fmt::join(list, ", "));
+    return fmt::format("{}: replaced from neighbouring pixels{}", fmt::join(list, ", "),
+                       alphas > 0 ? ", alpha clamped" : "");
 }
 
 InvalidValues sanitize(Ldi &ldi, const std::string &name) {

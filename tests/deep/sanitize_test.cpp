@@ -137,9 +137,11 @@ TEST(InvalidValues, PlacesAndWeightsOfADeepPicture) {
 }
 
 TEST(InvalidValues, AreSaidInOneLine) {
-    EXPECT_EQ((InvalidValues{.colours = 2, .depths = 1}).text(),
-              "2 colours that are not finite, 1 depth that is not above 0: replaced from "
-              "neighbouring pixels, alpha clamped");
+    EXPECT_EQ(
+        (InvalidValues{.colours = 2, .depths = 1}).text(),
+        "2 colours that are not finite, 1 depth that is not above 0: replaced from neighbouring pixels");
+    EXPECT_EQ((InvalidValues{.alphas = 2}).text(),
+              "2 alphas outside 0..1: replaced from neighbouring pixels, alpha clamped");
 }
 
 TEST(InvalidValues, ImagesNeedADepthOnEitherSideOfTheCamera) {

@@ -80,17 +80,42 @@ void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
                 part.channels, file.parts() > 1 ? layer_of(file.header(part.part)) : std::string()));
 }
 
+// Warns of a part of depth that does not cover the part of the colours.
+void compare_depth(const Imf::MultiPartInputFile &file, const std::string &asked, const std::string &path,
+                   PictureParts &picture) {
+    std::vector<Channel> channels = picture.channels();
+    std::erase_if(channels, [](const Channel &c) { return c.type == PixelType::uint32; });
+    if (!has_depth_channel(channels, asked)) return;
+    const std::string depth = find_depth_channel(channels, asked, path).name;
+    Imath::Box2i of_depth, of_colours;
+    for (const PartChannels &part : picture.parts)
+        for (const FileChannel &found : part.channels) {
+            if (found.channel.name == depth) of_depth = file.header(part.part).dataWindow();
+            if (found.channel.name == "R") of_colours = file.header(part.part).dataWindow();
+        }
+    Imath::Box2i both = of_depth;
+    both.extendBy(of_colours);
+    if (both == of_depth) return;
+    const Imath::V2i one(1, 1), own = of_depth.size() + one, all = of_colours.size() + one;
+    picture.warnings.push_back(fmt::format(
+        "depth {} has {}x{} pixels, the colours {}x{}: where they have no depth they count as infinitely far",
+        depth, own.x, own.y, all.x, all.y));
+}
+
 using Chosen = std::optional<ChannelsOfPicture>; // one of the file's pictures; empty: all channels
 
-// A channel whose name is taken becomes one of the part's layer: R of "diffuse" becomes diffuse.R.
+// A channel whose name is taken becomes one of the part's layer: R of "diffuse" becomes diffuse.R. So does one that only
+// its part's name says to be a depth, or that is asked for by this name: Y of "depth" becomes depth.Y.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path, const Chosen &chosen,
-              std::unordered_set<std::string> &taken, PictureParts &picture) {
+              const std::string &depth, std::unordered_set<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};
     const std::string layer = layer_of(file.header(number));
     for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
         const std::string &name = found.channel.name;
         if (chosen) rename(found, chosen->name_of(full_name(name, layer, file.parts() > 1)));
         if (name.empty()) continue;
+        const std::string full = full_name(name, layer, file.parts() > 1);
+        if (full == depth || (depth_rank(full) && !depth_rank(name))) rename(found, full);
         if (taken.contains(name)) rename(found, layer + "." + name);
         if (!taken.insert(name).second) { // the file has the same layer twice
             picture.warnings.push_back(fmt::format(
@@ -138,9 +163,10 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
             continue;
         }
         picture.windows.data.extendBy(windows.data);
-        add_part(file, part, path, chosen, taken, picture);
+        add_part(file, part, path, chosen, depth, taken, picture);
     }
     find_beauty(file, picture);
+    if (choice.depth_file.empty()) compare_depth(file, choice.depth, path, picture);
     return picture;
 }
 

@@ -1,4 +1,5 @@
 // Flat parts of one picture with different data windows: cropped elements, depth over the whole picture.
+#include "base/error.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/open_view.h"
@@ -69,7 +70,22 @@ TEST_F(ExrWindows, AreUnited) {
     EXPECT_EQ(values(file.image, "N.x"), (std::vector<float>{7, 0, 0, 0}));
     EXPECT_EQ(open_view(path).view.z, (std::vector<float>{inf, inf, 4, inf}));
     EXPECT_EQ(read_ldi(path).ldi.windows.data, file.image.windows.data);
-    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_EQ(file.warnings, (std::vector<std::string>{
+                                 "depth Z has 2x1 pixels, the colours 2x1: where they have no depth they "
+                                 "count as infinitely far"}));
+    write({{"rgba", {"R", "G", "B", "A"}, 1, 2, 1}, {"depth", {"Z"}, 0, 2, 4}});
+    EXPECT_TRUE(read_flat_exr(path).warnings.empty());
+}
+
+TEST_F(ExrWindows, ThePartMayTellThatAChannelIsDepth) {
+    for (const std::string part : {"depth", "Z", "ZDepth"}) {
+        write({{"rgba", {"R", "G", "B", "A"}, 0, 3, 1}, {part, {"Y"}, 0, 3, 4}});
+        EXPECT_EQ(open_view(path).view.z, (std::vector<float>{4, 4, 4, 4})) << part;
+    }
+    write({{"rgba", {"R", "G", "B", "A"}, 0, 3, 1}, {"far", {"Y"}, 0, 3, 4}});
+    EXPECT_THROW(open_view(path), Error);
+    EXPECT_EQ(open_view(path, {.depth = {.picture = {.depth = "far.Y"}}}).view.z,
+              (std::vector<float>{4, 4, 4, 4}));
 }
 
 TEST_F(ExrWindows, ColoursWithoutCoverageCoverTheirOwnWindow) {
