@@ -108,17 +108,16 @@ LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
     return found;
 }
 
-// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
-// 0.
+// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `difference`;
+// else 0.
 Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
-                                 float expected) const {
+                                 float difference) const {
     Steps steps{0, 0};
     LinkedSample last = from;
     for (std::size_t n = 0; n < steps.size(); ++n) {
-        const LinkedSample next = nearest(pixel + int(n + 1) * step, last.depth + expected);
-        if (!next.found() || (next.depth - last.depth) * expected <= 0) break;
-        expected = next.depth - last.depth;
-        steps[n] = std::abs(expected);
+        const LinkedSample next = nearest(pixel + int(n + 1) * step, last.depth);
+        if (!next.found() || (next.depth - last.depth) * difference <= 0) break;
+        steps[n] = std::abs(next.depth - last.depth);
         last = next;
     }
     return steps;

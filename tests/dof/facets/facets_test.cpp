@@ -54,6 +54,19 @@ TEST(Facets, SilhouettesAreNoSurface) {
     EXPECT_EQ(steep_links({10, 12, 14, 16, 40, 42, 44, 46}), 6u); // two slopes, one behind the other
 }
 
+// The steps from layer to layer would make a slope, but each layer goes on.
+TEST(Facets, LayersBehindEachOtherAreNoSlope) {
+    EXPECT_EQ(facets_of(make_ldi(windows_of_size(20, 11), {{"Y"}, {"A"}},
+                                 [](int x, int) {
+                                     std::vector<Sample> samples;
+                                     for (const double depth : {90, 60, 30, 5})
+                                         if (x < 10 || depth < 90)
+                                             samples.push_back({lens.radius * lens.focal_px / depth, {0, 1}});
+                                     return samples;
+                                 })),
+              0u);
+}
+
 TEST(Facets, SlopesGoOnToWhereTheyEnd) {
     EXPECT_EQ(steep_links({9, 9, 9, 11, 13, 15, 15, 15}), 3u);
     EXPECT_EQ(steep_links({9, 9, 9, 10, 12, 15, 19, 19}), 4u); // increasingly steep
