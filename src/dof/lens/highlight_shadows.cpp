@@ -218,6 +218,13 @@ bool HighlightShadows::is_left_behind(std::uint32_t lamp_sample, const Caster &c
            std::ranges::binary_search(highlights_.sample, sample);
 }
 
+// Whether the caster is a part of the mirror or glass that shows the lamp.
+bool HighlightShadows::is_in_mirror_of(std::uint32_t lamp_sample, const Caster &caster) const {
+    return &caster.of->samples == &samples_ && samples_.is_image(lamp_sample) &&
+           samples_.is_image(caster.joined->sample) &&
+           kernels::is_in_mirror(samples_.depth(lamp_sample), caster.joined->depth);
+}
+
 // Whether the caster has almost no parallax with the lamp, up to the depth `hardly`, and does not cover it.
 bool HighlightShadows::casts_hardly(const ShadowedLamp &lamp, float hardly, const Caster &caster) {
     const std::array<float, 4> &place = caster.joined->footprint.place;
@@ -240,7 +247,7 @@ void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Ra
                                 const Caster &caster, Shadow &into) const {
     const auto &[footprint, depth, to, sample] = *caster.joined;
     if (!(depth > range.farthest && depth <= range.nearest)) return;
-    if (casts_hardly(lamp, lamp.hardly, caster)) return;
+    if (casts_hardly(lamp, lamp.hardly, caster) || is_in_mirror_of(lamp.sample, caster)) return;
     const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, footprint);
     const Imath::Box2f shadow = edges.shadow();
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;

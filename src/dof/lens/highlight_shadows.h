@@ -16,7 +16,8 @@
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
 // they do so in all tiles, if wide lamps are many: up to a sixteenth in a draft, else up to 1/64 (tile_plan.h).
 //
-// Solids and the fillers that hide lamps (fillers.h) cast shadows as samples do.
+// Solids and the fillers that hide lamps (fillers.h) cast shadows as samples do. A mirror does not hide the lamps that
+// it shows (Ldi::image_z).
 #pragma once
 
 #include "dof/lens/highlights.h"
@@ -100,6 +101,7 @@ private:
     template <typename Visit>
     void for_each_caster(const ShadowedLamp &lamp, const CastingBlock &block, const Visit &visit) const;
     const std::vector<JoinedFootprint> &casters_of(const ShadowedLamp &lamp, const CastingBlock &block) const;
+    bool is_in_mirror_of(std::uint32_t lamp_sample, const Caster &caster) const;
     static bool casts_hardly(const ShadowedLamp &lamp, float hardly, const Caster &caster);
     bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
     void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,

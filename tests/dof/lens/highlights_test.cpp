@@ -488,6 +488,25 @@ TEST(LensGatherOfALamp, IsAnEvenDisc) {
         }
 }
 
+// The parts of a mirror that are nearer than the pixel of a lamp do not hide it.
+TEST(LensGatherOfALamp, IsWholeInATiltedMirror) {
+    const auto mirror = [](double tilt) {
+        return gather(make_ldi(windows_of_size(64, 64), rgba_channels(),
+                               [&](int x, int y) {
+                                   const float v = x == 31 && y == 32 ? 1000.0f : 0.1f;
+                                   Sample sample{depth_of(wide, -6 - tilt * (y - 32)), {v, v, v, 1}};
+                                   sample.image_z = depth_of(wide, 12);
+                                   return std::vector<Sample>{sample};
+                               }),
+                      wide);
+    };
+    const Image straight = mirror(0), tilted = mirror(0.05);
+    for (int y = 18; y < 48; ++y)
+        for (int x = 16; x < 48; ++x)
+            ASSERT_NEAR(tilted.at(red_channel, x, y), straight.at(red_channel, x, y), 0.02) << x << " " << y;
+    EXPECT_GT(tilted.at(red_channel, 31, 38), 1);
+}
+
 // Mist of many thin samples before a lamp, and a fence of thick ones.
 TEST(LensGatherOfAPoint, ShinesThroughWhatIsThin) {
     struct Mist {
