@@ -30,6 +30,7 @@ struct Seen {
     double depth; // disparity, pixels
     double alpha;
     Edge left, right, above, below;
+    bool shows_image() const { return shine != coc; }
 };
 
 using Samples = std::vector<Seen>; // in the order of the LDI
@@ -168,6 +169,7 @@ private:
             const Seen &of = samples_[lamp.sample];
             if (s.alpha < 1 && s.pixel != of.pixel && s.depth <= 1.1 * of.depth && shining_.contains(i))
                 continue;
+            if (s.shows_image() && of.shows_image() && s.depth - of.depth < 1) continue; // of one mirror
             left *= 1 - s.alpha;
         }
         return left;
