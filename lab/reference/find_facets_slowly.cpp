@@ -79,15 +79,18 @@ private:
         return nearest;
     }
 
-    // Steps of depth from pixel to pixel, each to the sample nearest in depth; 0 from where a step has the other sign
-    // or is missing.
-    std::array<double, 2> next_steps(Opaque from, const Imath::V2i &step, double first) const {
+    // Steps of depth from pixel to pixel, each searched at the depth to which the last one leads; 0 from where a step
+    // has the other sign or is missing, or if the first sample goes on level.
+    std::array<double, 2> next_steps(Opaque from, const Imath::V2i &step, double last) const {
         std::array<double, 2> steps{0, 0};
+        const Found level = nearest(from.pixel + step, double(from.depth));
+        if (level && std::abs(level->depth - from.depth) < steep_px) return steps;
         for (double &s : steps) {
-            const Found next = nearest(from.pixel + step, double(from.depth));
-            const double difference = next ? double(next->depth) - double(from.depth) : 0;
-            if (difference * first <= 0) break;
-            s = difference;
+            const Found next = nearest(from.pixel + step, double(from.depth) + last);
+            if (!next) break;
+            const double difference = double(next->depth) - double(from.depth);
+            if (difference * last <= 0) break;
+            last = s = difference;
             from = *next;
         }
         return steps;

@@ -108,16 +108,18 @@ LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
     return found;
 }
 
-// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `difference`;
-// else 0.
+// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
+// 0. None if the surface goes on level, so that what has the expected depth is a layer behind it.
 Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
-                                 float difference) const {
+                                 float expected) const {
     Steps steps{0, 0};
+    if (kernels::is_one_surface(nearest(pixel + step, from.depth).depth, from.depth, steep_px)) return steps;
     LinkedSample last = from;
     for (std::size_t n = 0; n < steps.size(); ++n) {
-        const LinkedSample next = nearest(pixel + int(n + 1) * step, last.depth);
-        if (!next.found() || (next.depth - last.depth) * difference <= 0) break;
-        steps[n] = std::abs(next.depth - last.depth);
+        const LinkedSample next = nearest(pixel + int(n + 1) * step, last.depth + expected);
+        if (!next.found() || (next.depth - last.depth) * expected <= 0) break;
+        expected = next.depth - last.depth;
+        steps[n] = std::abs(expected);
         last = next;
     }
     return steps;

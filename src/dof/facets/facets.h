@@ -3,8 +3,9 @@
 // Two opaque samples of adjacent pixels whose disparities differ by D move apart by D pixels towards the rim of
 // the lens. What lies behind then shows between them, unless the surface is known to continue from one to the other. It
 // does (the samples are linked) if |D| is less than steep_px, or if D is one of three steps of depth that follow each
-// other in a row or a column, each to the sample nearest in depth, and have the same sign. D may be the first, the
-// second or the third of them. S is the smaller of the other two steps, for the choice with the largest S. Then
+// other in a row or a column and have the same sign. D may be the first, the second or the third of them, but a surface
+// that goes on level beyond D has no further step: what lies deeper there is a layer behind it. S is the smaller of the
+// other two steps, for the choice with the largest S. Then
 //   |D| < steep_px + 2 S
 // links a slope to where it ends, and a curved slope to itself. A silhouette has no such steps: both surfaces are flat,
 // and only one step is steep, or two if a pixel has a depth between them. A sample has at most one link in each
@@ -82,7 +83,7 @@ private:
     LinkedSample nearest(const Imath::V2i &pixel, float depth) const;
     using Steps = std::array<float, 2>;
     Steps steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
-                       float difference) const;
+                       float expected) const;
 
     const Ldi &ldi_;
     std::size_t alpha_;
