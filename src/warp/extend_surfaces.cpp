@@ -146,6 +146,7 @@ private:
     // Continues the surface whose last pixel is `end`, where `sample` shows it.
     void follow(std::uint64_t sample, const Imath::V2i &end, const Imath::V2i &step,
                 std::vector<Hidden> &found) const {
+        const bool is_last = !has_farther(end, depth_of(sample));
         std::uint64_t before = sample; // the n-th pixel before the end shows it
         for (int n = 1;; ++n) {
             const auto at_distance = [&](int m) { return surface_at(end - m * step, depth_of(before)); };
@@ -155,7 +156,7 @@ private:
             before = shown.value_or(before);
             const Imath::V2i at = end + n * step;
             const double depth = mirrored(depth_of(sample), depth_of(before));
-            if (!is_between(at, depth, n) ||
+            if (!is_behind(at, depth, n) || (is_last && !has_farther(at, depth)) ||
                 !sights_.are_hidden(Imath::V2d(at) + Imath::V2d(0.5), depth, -double(one_surface_px)))
                 return;
             found.push_back(
@@ -180,14 +181,16 @@ private:
             }
         return nearest;
     }
-    // Whether a surface lies, n pixels after its end, between something nearer and something farther, and a lens point
-    // may look there.
-    bool is_between(const Imath::V2i &at, double depth, int n) const {
-        if (!(depth > 0) || !frame_.intersects(at) || surface_at(at, depth)) return false;
+    // Whether a pixel has something farther.
+    bool has_farther(const Imath::V2i &at, double depth) const {
         const SampleRange there = ldi_.pixel(ldi_.windows.index(at.x, at.y));
-        if (there.empty() || depth_of(there.to - 1) >= depth) return false;
+        return !there.empty() && depth_of(there.to - 1) < depth;
+    }
+    // Whether a surface lies, n pixels after its end, behind something nearer, and a lens point may look there.
+    bool is_behind(const Imath::V2i &at, double depth, int n) const {
+        if (!(depth > 0) || !frame_.intersects(at) || surface_at(at, depth)) return false;
         double nearer = 0; // by how much the farthest sample before it is nearer
-        for (const std::uint64_t i : there)
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
             if (covers(i) && depth_of(i) > depth) nearer = depth_of(i) - depth;
         return is_seen_behind(n, nearer);
     }

@@ -53,7 +53,7 @@ private:
 // the mean of these two pixels. The surface continues
 // - for as many pixels as views saw of it before its end,
 // - while no view saw through it, in this pixel or in those around it,
-// - while something lies farther: where nothing does, fillers (dof/lens/fillers.h) do as well,
+// - while something lies farther, or did at its end: fillers (dof/lens/fillers.h) continue the last layer,
 // - while what hides it is nearer by more than (n - 1) / sqrt(2) pixels of disparity: no lens point looks farther
 //   behind an edge, which may run at 45 degrees,
 // - within the picture of the centre view.

@@ -19,10 +19,10 @@ const Windows windows = windows_of_size(96, 96);
 constexpr int row = 48;
 
 // The plate covers what is left of `plate_ends`, the board lies between `board_begins` and `board_ends`: columns of the
-// centre view. Both have `rows`; from above and below, views see the wall behind them. Disparities; the board's
-// may change from left to right.
+// centre view. They have that many rows; from above and below, views see the wall behind them. Disparities; the
+// board's may change from left to right.
 struct Boards {
-    double plate_ends = 48, board_begins = 20, board_ends = 80, rows = 46;
+    double plate_ends = 48, board_begins = 20, board_ends = 80, rows = 46, rows_of_plate = 46;
     double plate = 40, wall = 4, board = 30, rise = 0;
     std::function<float(double column, double y)> light = [](double, double) { return 0.5f; }; // of the board
 
@@ -30,11 +30,14 @@ struct Boards {
         return make_view(windows, options.radius * u, [&](int x, int y) {
             // A point of depth d that the centre view shows at p is seen from u at p - d u.
             const auto row_at = [&](double depth) { return y + 0.5 - depth * u.y; };
-            const auto in_rows = [&](double depth) { return std::abs(row_at(depth) - row) < rows / 2; };
-            if (x + 0.5 + plate * u.x < plate_ends && in_rows(plate)) return pixel(plate, 0.1f);
+            const auto in_rows = [&](double depth, double count) {
+                return std::abs(row_at(depth) - row) < count / 2;
+            };
+            if (x + 0.5 + plate * u.x < plate_ends && in_rows(plate, rows_of_plate))
+                return pixel(plate, 0.1f);
             const double column = (x + 0.5 + (board - 48 * rise) * u.x) / (1 - rise * u.x);
             const double depth = board + rise * (column - 48);
-            if (column >= board_begins && column < board_ends && in_rows(depth))
+            if (column >= board_begins && column < board_ends && in_rows(depth, rows))
                 return pixel(depth, light(column, row_at(depth)));
             return pixel(wall, 0.9f);
         });
@@ -131,11 +134,22 @@ TEST(ContinueSurfaces, LampsDoNotContinue) {
     }
 }
 
-// Without the wall, nothing would be seen instead of the board.
-TEST(ContinueSurfaces, EndWhereNothingLiesFarther) {
+// Fillers continue the last layer.
+TEST(ContinueSurfaces, TheLastLayerDoesNot) {
     Boards boards;
-    boards.rows = 1000;
+    boards.rows = boards.rows_of_plate = 1000;
     EXPECT_EQ(first_column(board_of(boards.ldi())), 38);
+}
+
+// The views from above and below see the wall behind the board, but not behind the plate.
+TEST(ContinueSurfaces, ALayerDoesBeforeWhatWasSeenBehindItsEnd) {
+    Boards boards;
+    boards.rows_of_plate = 1000;
+    Progress silent;
+    const auto samples =
+        board_of(warp({boards.view({0, 0}), boards.view({0, 1}), boards.view({0, -1})}, options, silent));
+    EXPECT_LE(first_column(samples), 48 - 10);
+    EXPECT_GE(first_column(samples), 48 - 15);
 }
 
 // The added samples lie behind the plate, so the centre view still shows the plate.
