@@ -5,7 +5,7 @@ export PATH=$bin:$PATH
 
 traced fence 160x90
 rm view_2.exr view_3.exr # the examples have two
-cp reference.exr another.exr
+cp rays_1.exr another.exr
 cp view_0.exr right.exr
 cp view_1.exr left.exr
 cp center.exr beauty.exr

@@ -79,7 +79,7 @@ namespace {
 constexpr std::size_t enough = 200;    // pixels that tell
 constexpr double clearly = 0.7;        // times the contradiction
 constexpr std::size_t few = 9;         // depths that contradict by chance: three standard deviations
-constexpr double few_left = 0.4;       // of the depths that contradicted
+constexpr double few_left = 0.3;       // of the depths that contradicted
 constexpr double at_least = 0.01;      // a smaller contradiction is rounding or noise
 constexpr double least_motion = 1;     // pixels; a view that moves less looks the same
 constexpr double least_turned = 3;     // pixels; less may be aliases of thin things
