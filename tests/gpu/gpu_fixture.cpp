@@ -1,5 +1,7 @@
 #include "gpu/gpu_fixture.h"
 
+#include "support/lens_ldi.h"
+
 #include <dlfcn.h>
 
 #include <cstdlib>
@@ -50,6 +52,32 @@ void GpuTest::expect_bears_failures(const Work &work) {
 DeviceReport GpuTest::with_memory(std::size_t mb, const Work &work) {
     const Set memory("FAULTY_VULKAN_MB", mb);
     return work();
+}
+
+void TileDeviceTest::expect_bears_failures(const Gather &gather, const Image &expected, double tolerance) {
+    GpuTest::expect_bears_failures([&] {
+        device.reset(); // only one device can be faulty at a time
+        device = open_gather_device(*info, watch());
+        EXPECT_LE(largest_difference(gather(device.get()), expected), tolerance);
+        const TileReport did = device->take_report();
+        if (did.failure.empty()) return did;
+        EXPECT_EQ(did.on_device, 0u);
+        EXPECT_EQ(did.on_cpu, (Tiles{{"the device failed", 1}}));
+        EXPECT_EQ(gather(device.get()).values, expected.values);
+        EXPECT_EQ(device->take_report().failure, ""); // it is not used any more
+        return did;
+    });
+}
+
+void TileDeviceTest::expect_needs_little_memory(const Gather &gather, const Image &expected,
+                                                double tolerance) {
+    const TileReport did = with_memory(64, [&] {
+        device = open_gather_device(*info, watch());
+        EXPECT_LE(largest_difference(gather(device.get()), expected), tolerance);
+        return device->take_report();
+    });
+    EXPECT_EQ(did.on_cpu, Tiles());
+    EXPECT_EQ(did.failure, "");
 }
 
 } // namespace sparselens::gpu

@@ -2,13 +2,16 @@
 // layer is not installed, a test that asks for it still runs, and then says that it ran without validation.
 #pragma once
 
+#include "base/image.h"
 #include "base/progress.h"
-#include "gpu/device.h"
+#include "dof/device/tile_device.h"
+#include "gpu/gather/gather_device.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +53,26 @@ protected:
 
 private:
     bool unwatched = false, validates = true;
+};
+
+// Compares pictures that a device gathers with the CPU's.
+class TileDeviceTest : public GpuTest {
+protected:
+    using Tiles = std::map<std::string, std::size_t>;
+    using Gather = std::function<Image(TileDevice *)>;
+
+    // The pictures may differ by `tolerance`. The picture has one tile.
+    void expect_bears_failures(const Gather &gather, const Image &expected, double tolerance);
+    // The device has 64 MB of memory, which is too little for all tiles at once.
+    void expect_needs_little_memory(const Gather &gather, const Image &expected, double tolerance);
+
+    // The validation layer also reports objects that the device leaves behind.
+    void TearDown() override {
+        device.reset();
+        GpuTest::TearDown();
+    }
+
+    std::unique_ptr<TileDevice> device;
 };
 
 } // namespace sparselens::gpu

@@ -1,8 +1,6 @@
 // The kernel of the lens gather compared with the CPU.
 #include "deep/tidy.h"
-#include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
-#include "gpu/gather/gather_device.h"
 #include "gpu/gpu_fixture.h"
 #include "lens/lens_samples.h"
 #include "support/lens_ldi.h"
@@ -14,8 +12,6 @@ namespace sparselens::gpu {
 namespace {
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
-
-using Tiles = std::map<std::string, std::size_t>;
 
 // Random surfaces without highlights.
 Ldi surfaces(int width, int height, bool opaque, std::uint32_t stream) {
@@ -30,7 +26,7 @@ Image gather(const Ldi &ldi, const LensGatherOptions &options, const ThinLens &b
     return lens_gather(ldi, by, ldi.windows.data, options, silent);
 }
 
-class LensDeviceTest : public GpuTest {
+class LensDeviceTest : public TileDeviceTest {
 protected:
     // Compares both pictures; the device must have computed all tiles.
     void expect_same(const Ldi &ldi, LensGatherOptions options, double tolerance = 1e-6,
@@ -49,14 +45,6 @@ protected:
         EXPECT_EQ(gather(ldi, options, by).values, image.values);
         device->take_report();
     }
-
-    // The validation layer also reports objects that the device leaves behind.
-    void TearDown() override {
-        device.reset();
-        GpuTest::TearDown();
-    }
-
-    std::unique_ptr<TileDevice> device;
 };
 
 TEST_F(LensDeviceTest, OpaqueSamplesAreTheCpus) {
@@ -273,33 +261,14 @@ TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
 
 TEST_F(LensDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = surfaces(30, 20, false, 8);
-    const Image expected = gather(ldi, {.lens_samples = 4});
-    expect_bears_failures([&] {
-        device.reset(); // only one device can be faulty at a time
-        device = open_gather_device(*info, watch());
-        const auto gathered = [&] { return gather(ldi, {.lens_samples = 4, .device = device.get()}); };
-        EXPECT_LE(largest_difference(gathered(), expected), 1e-6);
-        const TileReport did = device->take_report();
-        if (did.failure.empty()) return did;
-        EXPECT_EQ(did.on_device, 0u);
-        EXPECT_EQ(did.on_cpu, (Tiles{{"the device failed", 1}}));
-        EXPECT_EQ(gathered().values, expected.values);
-        EXPECT_EQ(device->take_report().failure, ""); // it is not used any more
-        return did;
-    });
+    const auto by = [&](TileDevice *used) { return gather(ldi, {.lens_samples = 4, .device = used}); };
+    expect_bears_failures(by, by(nullptr), 1e-6);
 }
 
 TEST_F(LensDeviceTest, LittleMemoryIsEnough) {
     const Ldi ldi = surfaces(900, 700, false, 18);
-    const Image expected = gather(ldi, {.lens_samples = 2});
-    const TileReport did = with_memory(64, [&] {
-        device = open_gather_device(*info, watch());
-        EXPECT_LE(largest_difference(gather(ldi, {.lens_samples = 2, .device = device.get()}), expected),
-                  1e-6);
-        return device->take_report();
-    });
-    EXPECT_EQ(did.on_cpu, Tiles());
-    EXPECT_EQ(did.failure, "");
+    const auto by = [&](TileDevice *used) { return gather(ldi, {.lens_samples = 2, .device = used}); };
+    expect_needs_little_memory(by, by(nullptr), 1e-6);
 }
 
 } // namespace

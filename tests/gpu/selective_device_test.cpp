@@ -1,7 +1,5 @@
 // The kernel of the selective gather compared with the CPU.
-#include "dof/device/tile_device.h"
 #include "dof/selective/selective.h"
-#include "gpu/gather/gather_device.h"
 #include "gpu/gpu_fixture.h"
 #include "support/lens_ldi.h"
 
@@ -14,8 +12,6 @@ namespace {
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
-using Tiles = std::map<std::string, std::size_t>;
-
 Image gather(const Ldi &ldi, const ThinLens &by, const SelectiveOptions &options) {
     Progress silent;
     return selective_gather(ldi, by, options, silent);
@@ -27,7 +23,7 @@ double largest_of(const Image &image) {
     return largest;
 }
 
-class SelectiveDeviceTest : public GpuTest {
+class SelectiveDeviceTest : public TileDeviceTest {
 protected:
     // Compares both pictures; the device must have computed all tiles.
     void expect_same(const Ldi &ldi, const ThinLens &by = lens, int layers = 8) {
@@ -43,14 +39,6 @@ protected:
         EXPECT_EQ(gather(ldi, by, {layers, device.get()}).values, image.values);
         device->take_report();
     }
-
-    // The validation layer also reports objects that the device leaves behind.
-    void TearDown() override {
-        device.reset();
-        GpuTest::TearDown();
-    }
-
-    std::unique_ptr<TileDevice> device;
 };
 
 TEST_F(SelectiveDeviceTest, SurfacesAreTheCpusWithAnyNumberOfLayers) {
@@ -138,34 +126,16 @@ TEST_F(SelectiveDeviceTest, WithoutNumbersOf64BitsAllIsTheCpus) {
 
 TEST_F(SelectiveDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = random_surfaces(windows_of_size(30, 20), lens, false, 7);
-    const Image expected = gather(ldi, lens, {});
-    expect_bears_failures([&] {
-        device.reset(); // only one device can be faulty at a time
-        device = open_gather_device(*info, watch());
-        const auto gathered = [&] { return gather(ldi, lens, {.device = device.get()}); };
-        EXPECT_LE(largest_difference(gathered(), expected), 1e-6 * largest_of(expected));
-        const TileReport did = device->take_report();
-        if (did.failure.empty()) return did;
-        EXPECT_EQ(did.on_device, 0u);
-        EXPECT_EQ(did.on_cpu, (Tiles{{"the device failed", 1}}));
-        EXPECT_EQ(gathered().values, expected.values);
-        EXPECT_EQ(device->take_report().failure, ""); // it is not used any more
-        return did;
-    });
+    const auto by = [&](TileDevice *used) { return gather(ldi, lens, {.device = used}); };
+    const Image expected = by(nullptr);
+    expect_bears_failures(by, expected, 1e-6 * largest_of(expected));
 }
 
 TEST_F(SelectiveDeviceTest, LittleMemoryIsEnough) {
     const Ldi ldi = random_surfaces(windows_of_size(300, 290), lens, false, 9);
-    const SelectiveOptions many{.layers = 40};
-    const Image expected = gather(ldi, lens, many);
-    const TileReport did = with_memory(64, [&] {
-        device = open_gather_device(*info, watch());
-        EXPECT_LE(largest_difference(gather(ldi, lens, {many.layers, device.get()}), expected),
-                  1e-6 * largest_of(expected));
-        return device->take_report();
-    });
-    EXPECT_EQ(did.on_cpu, Tiles());
-    EXPECT_EQ(did.failure, "");
+    const auto by = [&](TileDevice *used) { return gather(ldi, lens, {40, used}); };
+    const Image expected = by(nullptr);
+    expect_needs_little_memory(by, expected, 1e-6 * largest_of(expected));
 }
 
 } // namespace
