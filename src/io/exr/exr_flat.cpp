@@ -96,16 +96,18 @@ void compare_depth(const Imf::MultiPartInputFile &file, const std::string &asked
     Imath::Box2i both = of_depth;
     both.extendBy(of_colours);
     if (both == of_depth) return;
-    const Imath::V2i one(1, 1), own = of_depth.size() + one, all = of_colours.size() + one;
+    const auto text = [](const Imath::Box2i &box) {
+        return fmt::format("{}x{} pixels at {},{}", box.size().x + 1, box.size().y + 1, box.min.x, box.min.y);
+    };
     picture.warnings.push_back(fmt::format(
-        "depth {} has {}x{} pixels, the colours {}x{}: where they have no depth they count as infinitely far",
-        depth, own.x, own.y, all.x, all.y));
+        "depth {} covers {}, but the colours cover {}: colours without a depth count as infinitely far",
+        depth, text(of_depth), text(of_colours)));
 }
 
 using Chosen = std::optional<ChannelsOfPicture>; // one of the file's pictures; empty: all channels
 
-// A channel whose name is taken becomes one of the part's layer: R of "diffuse" becomes diffuse.R. So does one that only
-// its part's name says to be a depth, or that is asked for by this name: Y of "depth" becomes depth.Y.
+// A channel takes the name of its part as a layer (R of "diffuse" becomes diffuse.R) if its own name is taken, if only
+// the part's name shows that it is a depth, or if `depth` asks for it by that name.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path, const Chosen &chosen,
               const std::string &depth, std::unordered_set<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};

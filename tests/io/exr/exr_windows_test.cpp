@@ -71,8 +71,8 @@ TEST_F(ExrWindows, AreUnited) {
     EXPECT_EQ(open_view(path).view.z, (std::vector<float>{inf, inf, 4, inf}));
     EXPECT_EQ(read_ldi(path).ldi.windows.data, file.image.windows.data);
     EXPECT_EQ(file.warnings, (std::vector<std::string>{
-                                 "depth Z has 2x1 pixels, the colours 2x1: where they have no depth they "
-                                 "count as infinitely far"}));
+                                 "depth Z covers 2x1 pixels at 2,0, but the colours cover 2x1 pixels at 1,0: "
+                                 "colours without a depth count as infinitely far"}));
     write({{"rgba", {"R", "G", "B", "A"}, 1, 2, 1}, {"depth", {"Z"}, 0, 2, 4}});
     EXPECT_TRUE(read_flat_exr(path).warnings.empty());
 }
