@@ -53,8 +53,8 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
 // of 0. Pieces that come one by one are never held twice.
 void append_pixels(Ldi &whole, const Ldi &piece);
 
-// Inserts the samples of `added`, which are sorted by depth, into the same pixels of `ldi`, in place. Of two at one depth,
-// the sample of `ldi` comes first. `added` has the windows and the arrays that `ldi` has.
+// Adds the samples of `added` to `ldi`, each to the same pixel, in place and sorted by depth. At equal depths, samples
+// of `ldi` come first. Both must have the same windows and arrays, and their samples must be sorted.
 void insert_samples(Ldi &ldi, const Ldi &added);
 
 // The solid of a sample made of others: the smallest solid among those that cover half or more.

@@ -28,16 +28,16 @@ struct MixPrior {
 inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
     mostly_f{0.05, 1, 0.5, 1}; // these: not mixed
 
-// Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel: a is as large
-// as that needs. Returns nothing if that is more than the prior allows, if F and B are too similar, if c is farther from
-// the line than largest_residual, if the share of F or B is negligible, or if a colour is NaN.
+// Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel; a is raised
+// until this holds. Returns nothing if a is then more than the prior allows, if F and B are too similar, if c is
+// farther from the line than largest_residual, if the share of F or B is negligible, or if a colour is NaN.
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 
 inline Imath::V3d rgb(const Imath::V4d &rgba) { return {rgba[0], rgba[1], rgba[2]}; }
 
-// A mixture with a veil behind, whose density changes from pixel to pixel: c = a F + (1 - a) k B. Colours are RGBA, F is
-// opaque, and B covers a part of its pixel.
+// A mixture with a veil behind, whose density changes from pixel to pixel: c = a F + (1 - a) k B. Colours are RGBA, F
+// is opaque, and B covers a part of its pixel.
 struct VeilMix {
     double share;    // a, of F
     double density;  // k: the veil covers k times as much as B

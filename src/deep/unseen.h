@@ -1,15 +1,14 @@
-// What no view saw, in one rule: a surface goes on where nothing was seen that contradicts it, as far as a lens point
-// may look.
+// One rule for what no view saw: a surface goes on where no view contradicts it, as far as a lens point may look.
 //
-// - Views looked behind something nearer, and saw less than a lens point between them: extend_surfaces.h (confirmed:
-//   samples of the LDI, and solids).
-// - No view could look: fillers.h (assumed: seen where nothing else is, and hide lamps).
+// - Confirmed: views looked there, but something nearer hid the place. The warp adds samples and solids to the LDI
+//   (extend_surfaces.h).
+// - Assumed: no view could look there. Fillers (fillers.h) show where nothing else does, and hide lamps.
 // - Beyond the frame: frame_extension.h.
 //
-// A surface goes on along rows and columns, from its last pixel, if something nearer hides it in the next one. A surface
-// that ends where nothing is nearer has an outer edge, and does not go on. If surfaces go on into a pixel from several
-// sides, those that are one surface there become one sample: their mean, in which each weighs 1 / n in the n-th pixel
-// after its end.
+// A surface goes on along rows and columns, from its last pixel, if something nearer hides it in the next pixel. A
+// surface that ends where nothing is nearer has an outer edge, and does not go on. Surfaces may go on into one pixel
+// from several sides. Those that are one surface there become one sample: their mean, in which each weighs 1 / n in the
+// n-th pixel after its end.
 #pragma once
 
 #include "kernels/surface.h"

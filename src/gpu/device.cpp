@@ -1,5 +1,5 @@
-// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. What is to be
-// copied to the device waits there for the next submission. Each submission waits for a fence.
+// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. Uploads wait
+// there for the next submission. Each submission waits for a fence.
 
 #include "gpu/device.h"
 
@@ -82,7 +82,7 @@ struct Device::Vulkan {
     }
 
 private:
-    // What comes later sees what was written before.
+    // Makes the commands after it see what the commands before it wrote.
     static void order(const vk::raii::CommandBuffer &command) {
         using Stage = vk::PipelineStageFlagBits;
         using Access = vk::AccessFlagBits;

@@ -28,7 +28,7 @@ struct DeviceFull : DeviceFailed {
     using DeviceFailed::DeviceFailed;
 };
 
-// Limits for tests, and who hears of mistakes.
+// Limits for tests, and a function that receives messages about mistakes.
 struct Watch {
     // if set, receives the validation layer's messages
     std::function<void(const std::string &)> validation = {};

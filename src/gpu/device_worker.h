@@ -1,5 +1,5 @@
-// A device that works for somebody: stripe by stripe, because not all may fit into its memory, and until it fails. It
-// counts what it did, and what it leaves to the CPU.
+// Work on a device. The work is done in stripes, because the whole may not fit into the device's memory, and ends when
+// the device fails. The report counts what the device did, and what is left to the CPU.
 #pragma once
 
 #include "base/progress.h"

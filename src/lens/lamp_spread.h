@@ -48,8 +48,8 @@ LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::
 // blur into each other. All searches for lamps use these thresholds, and differ only in what they take for the
 // surroundings:
 // - highlights, which are spread exactly (dof/lens/highlights.h): the samples of the windows in which the lamp lies;
-// - lamps cut off by the border of the picture (dof/lens/beyond/frame_extension.h): the samples beside the lamp along the
-// border;
+// - lamps that the border of the picture cuts off (dof/lens/beyond/frame_extension.h): the samples beside the lamp
+//   along the border;
 // - whether light beyond the frame would show (dof/border_reach.h): nearly all samples of the border;
 // - the lamps of a view (warp/lamps/lamp_light.h): the pixels of the lamp's block; its brightest pixel must stand
 // out by twice the factor;

@@ -60,7 +60,7 @@ private:
 // Surfaces that continue into a pixel from several sides at about the same depth become one sample: their mean, each
 // weighted by 1 / n. Small lamps, mirrors, glass and volumes do not continue.
 
-// Adds the samples to an LDI that is made of the views. Frees the memory of `sights` before.
+// Adds the samples to an LDI that is made of the views. Frees the memory of `sights` before it adds them.
 void extend_surfaces(Sights &&sights, Ldi &ldi);
 
 // Finds which opaque surfaces count as solid for some distance behind their samples (Ldi::solid), so that a lens point

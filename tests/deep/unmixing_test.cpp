@@ -53,7 +53,8 @@ TEST(Unmix, LeavesLightInFront) {
     }
 }
 
-// A pixel of the sky beside another one that holds a twentieth of a lamp: what is left of it without that one is dark.
+// A pixel of the sky, with a background colour from a pixel of which a lamp covers a twentieth. What is left without so
+// bright a background would be dark.
 TEST(Unmix, TheRestIsNotMoreThanTheDepthAllows) {
     const V3d lamp{8, 10, 15}, sky{0.5, 0.45, 0.55}, brighter = mixed(0.05, lamp, sky);
     EXPECT_FALSE(unmix(sky, lamp, brighter, mostly_b, 0.1));

@@ -1,7 +1,7 @@
 // Stands in for Vulkan's loader (libvulkan.so), and makes a device's calls fail. It passes all other calls on.
-// - $FAULTY_VULKAN_CALL: the number of the call, counted since the instance was made, from which on all fail: those that
-//   submit work or wait for it as if the device were lost, the others as if it or the host had no memory.
-// - $FAULTY_VULKAN_MB: the device's memory.
+// - $FAULTY_VULKAN_CALL: all calls fail from this number on, counted since the instance was made. Calls that submit
+//   work or wait for it fail as if the device were lost, the others as if the device or the host had no memory.
+// - $FAULTY_VULKAN_MB: the device has so much memory.
 #define VK_NO_PROTOTYPES
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>

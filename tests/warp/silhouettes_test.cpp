@@ -162,8 +162,8 @@ TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
     }
 }
 
-// Bright letters with a slanted edge before the sky. The pixels whose middle shows the sky hold a twentieth of a letter, or
-// nothing of it; all of them lie beside a letter's pixel.
+// Bright letters with a slanted edge before the sky. Pixels beside the edge have the depth of the sky; a letter covers
+// a twentieth of some of them, and nothing of the others.
 TEST(Silhouettes, TheSkyBesideBrightLettersHasNoDarkEdge) {
     const Imath::V3f letter(7.5f, 10.5f, 15), sky(0.5f, 0.45f, 0.55f);
     const View view = make_view(windows_of_size(20, 12), {0, 0}, [&](int x, int y) {

@@ -92,15 +92,15 @@ struct Highlights {
 };
 
 // Finds the highlights of a picture, and takes the light that they spread out of `colours`. Four windows of 64 x 64
-// pixels overlap at a sample. The level of a window is what four fifths of its samples, counted by what they cover,
-// stay below; the level at a sample is that of the darkest window. A sample is a highlight if the brightest of its
-// channels (light_channels()) is more than four times this level. So at most a fifth are highlights, which bounds the
-// cost. Volumes are no highlights and do not count. A window counts the samples in `seen` (pixels relative to the data window's
-// corner), and pixels beyond that let light through, because what else lies beyond is made up; if it has none of these,
-// it counts all its samples. A made-up sample must stand out of all samples of its windows, too, so that at most a
-// fifth of these are highlights. From six times the level on, a sample spreads all light that stands out; below, less
-// and less, so that nothing pops where a lamp is hardly one. A sample whose disc would be too wide and too faint to be
-// seen (lamp_least_variance) is no highlight.
+// pixels overlap at a sample. Four fifths of the samples of a window, counted by what they cover, stay below its level;
+// the level at a sample is that of the darkest window. A sample is a highlight if the brightest of its channels
+// (light_channels()) is more than four times this level. So at most a fifth are highlights, which bounds the cost.
+// Volumes are no highlights and do not count. A window counts the samples in `seen` (pixels relative to the data
+// window's corner), and pixels beyond that let light through, because what else lies beyond is made up; if it has none
+// of these, it counts all its samples. A made-up sample must stand out of all samples of its windows, too, so that at
+// most a fifth of these are highlights. From six times the level on, a sample spreads all light that stands out; below,
+// less and less, so that nothing pops where a lamp is hardly one. A sample whose disc would be too wide and too faint
+// to be seen (lamp_least_variance) is no highlight.
 Highlights take_highlights(const Ldi &ldi, const BlockedSamples &samples, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen = {});
 

@@ -66,7 +66,7 @@ struct BlockedSamples {
     LargeArray<float> surface_coc;
     LargeArray<float> alpha;         // coverage, (0, 1]
     LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    // What no view saw (fillers.h) names a sample that it shows in the lower half of the key. Empty: the sample itself.
+    // The sample that a filler or solid (fillers.h) shows, for the lower half of its key. Empty: each shows itself.
     LargeArray<std::uint32_t> named;
     LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
@@ -122,7 +122,7 @@ struct PlacedSample {
     std::optional<float> surface_coc = {}; // else coc
     std::uint32_t named = 0;
 };
-enum class Also { nothing, surfaces, names }; // arrays that are not empty: surface_coc or named
+enum class Also { nothing, surfaces, names }; // which array is filled, too: surface_coc, or named
 
 struct SampleCounts {
     std::uint32_t opaque = 0, all = 0;
@@ -134,7 +134,7 @@ using CountSamples = std::function<SampleCounts(int x, int y)>;
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
                            Also also);
-// The same for opaque samples, which are made twice.
+// The same for opaque samples. Calls place() twice for each pixel: to count its samples, and to store them.
 BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, Also also = Also::nothing);
 
 // Colours of the samples of a BlockedSamples, in groups of four channels so that one load brings one group:

@@ -172,21 +172,22 @@ bool hides(uint cell, float depth) {
            (opaque_at(cell - side) > limit && opaque_at(cell + side) > limit);
 }
 
-// The thread's cells that may show something else than their front sample, one bit each; and those of them where cells
-// left and right, above and below, and on each diagonal are both in front of the cell.
+// One bit for each cell of the thread. odd: the cell may show something else than its front sample. odd_axes: two
+// opposite neighbours are both in front of the cell: in its row, in its column, or on one of its diagonals.
 uint odd[points];
 uvec4 odd_axes[points];
 
-// What these cells show, once that is found.
+// What repair_odd() found for one of these cells.
 struct Repaired {
     uint cell, shows; // a sample
     uint64_t front;
 };
 Repaired repaired[own * points];
 
-// The cells of a thread are `wide` columns of them.
+// Returns the j-th cell of the thread, which has the cells of `wide` adjacent columns.
 uint cell_of_thread(uint l, uint j) {
-    const uint across = size / wide, x = thread() % across * wide + j % wide, y = thread() / across * (own / wide) + j / wide;
+    const uint across = size / wide;
+    const uint x = thread() % across * wide + j % wide, y = thread() / across * (own / wide) + j / wide;
     return cell_of(l, ivec2(x, y));
 }
 

@@ -20,7 +20,7 @@ layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
 layout(binding = 4) readonly buffer Weights { float weights[]; }; // [sample]
 layout(binding = 5) readonly buffer Values { uint values[]; };    // [channel][sample], bits
 layout(binding = 6) readonly buffer Ids { uint ids[]; };          // [channel]: 1 for ids, which are copied
-// [pixel]: see first_of(); then not 0: more samples in a pixel than frame.most_in_pixel
+// [pixel]: see first_of(). One entry follows: not 0 if a pixel has more samples than frame.most_in_pixel.
 layout(binding = 7) buffer Ends { uint ends[]; };
 // samples in the pixels that they fell into: index, dx, dy, 1 / z (bits)
 layout(binding = 8) buffer Landed { uvec4 landed[]; };
