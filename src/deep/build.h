@@ -33,8 +33,8 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged cop
 // The same samples without channels.
 Ldi without_channels(const Ldi &ldi);
 
-// Has the channels and windows of `like`, and z_back, dx, dy, weight, image_z and solid if `like` has them; no pixels
-// yet.
+// An LDI with the channels and windows of `like`, without samples and pixels: all arrays of samples and `begin` are
+// empty.
 Ldi empty_like(const Ldi &like);
 
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.

@@ -1,4 +1,4 @@
-// Reduces the samples of each pixel by disparity R F / z, so that the LDI can be refocused. Images must agree too.
+// Reduces the samples of each pixel by disparity R F / z, so that the LDI can be refocused. Image depths count too.
 //
 // The samples of a cluster become one sample. Opaque samples within the tolerance are averaged by weight (they are one
 // surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples

@@ -26,7 +26,7 @@ struct MixPrior {
     double weight, share, least, most;
 };
 inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
-    mostly_f{0.05, 1, 0.5, 1}; // these: not mixed
+    mostly_f{0.05, 1, 0.5, 1}; // expected: not mixed
 
 // Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel; a is raised
 // until this holds. Returns nothing if a is then more than the prior allows, if F and B are too similar, if c is

@@ -54,7 +54,7 @@ public:
 private:
     struct Piece {                        // some rows
         std::uint64_t begin, end;         // samples of the picture
-        std::vector<PackedFloats> arrays; // as arrays_of() lists them, without empty arrays
+        std::vector<PackedFloats> arrays; // as arrays_of() lists them
     };
     std::uint64_t begin_of_row(int y) const;
 

@@ -68,7 +68,7 @@ float most_solid_of(const Ldi &ldi, std::span<const Term> terms) {
     return most;
 }
 
-// Front to back.
+// Sets `seen` to the samples of a small pixel, front to back.
 void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor,
                   std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
     seen.clear();

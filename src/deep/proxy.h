@@ -12,7 +12,7 @@ namespace sparselens {
 // The purpose of a small LDI.
 struct ProxyFor {
     // For a lens: samples are one surface if their disparities, scale / z in pixels of the large LDI, differ by
-    // at most `tolerance` pixels. With 0, samples are one surface if their depths differ by at most a hundredth.
+    // at most `tolerance` pixels. With scale 0, they are one surface if their depths differ by at most a hundredth.
     double scale = 0, tolerance = 0;
     std::span<const float> left = {}; // [sample]: factor on its light; empty: 1
     // [sample]: the first sample of its small pixel on the same surface, whatever their depths; the surface gets their

@@ -4,7 +4,7 @@
 // In each pixel V is a channel of the flat picture and F its coverage; D is the coverage of all samples together, and a
 // the coverage of one:
 //
-//   F agrees with D      a sample becomes V a / D, by what it shows of the pixel. D stays as it is
+//   F agrees with D      each sample becomes V a / D, so that all flatten to V. D stays as it is
 //   F is more            the rest of the coverage, (F - D) / (1 - D), becomes a sample at infinity behind the others,
 //                        for a sky that the deep picture left out; all of them share V as above, with F in place of D
 //   F is less            V a / D: the light is right, and the coverage stays

@@ -36,7 +36,7 @@ struct InvalidValues {
 };
 
 // The depths must be planar; the samples need not be tidy. Throws Error, naming `name` and the first such pixel, if
-// half of the covered samples or more have no depth above 0, because that indicates another convention of depth.
+// half of the covered samples or more have a negative depth or NaN, because that indicates another convention.
 InvalidValues sanitize(Ldi &ldi, const std::string &name);
 InvalidValues sanitize(View &view);
 

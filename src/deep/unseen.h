@@ -35,7 +35,7 @@ inline bool is_seen_behind(int n, Real nearer) {
     return Real(n - 1) < std::numbers::sqrt2_v<Real> * nearer;
 }
 
-// The disparity of a surface as far after its end as it has another disparity before it: slopes go on.
+// The disparity of a surface n pixels after its end, from those at its end and n pixels before it: slopes go on.
 inline double mirrored(double at_end, double before) { return 2 * at_end - before; }
 
 // Whether two disparities belong to one surface.

@@ -27,8 +27,8 @@ public:
     // Takes the pixels of the view and packs them.
     ViewSamples(View &&view, std::span<const Channel> channels);
     // Takes a deep view; `samples` must be tidy and in the middle of their pixels. The weight of a part is the share of
-    // light that the parts before it let through, because that share of the renderer's samples hit it, and at least
-    // that of an estimate (WarpTuning::estimate_weight).
+    // light that the parts before it let through, because that share of the renderer's samples hit it, but not less
+    // than the weight of an estimate (WarpTuning::estimate_weight).
     explicit ViewSamples(Ldi &&samples);
     ViewSamples(ViewSamples &&) = default;
     ViewSamples &operator=(ViewSamples &&) = default;
@@ -75,8 +75,8 @@ public:
     void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
     void single_depths(std::size_t first, std::span<float> out) const;
 
-    // The depths of all pixels, including empty ones; in a deep view, of their front samples. If the view was made from
-    // a PackedView, see there.
+    // The depths of all pixels, including those that show nothing, before replace(); in a deep view, the depths of
+    // front samples, 0 where there is none.
     std::span<const float> depths() const { return z_; }
     Image image() const;
     // Compares the bits of depths, then of values.
@@ -87,15 +87,15 @@ public:
     void move_back(double by);
     void keep_channels(std::span<const Channel> kept);
 
-    // Sets the depth of a sample that was not put in the place of others.
+    // Sets the depth of a sample that replace() did not add; not for a part.
     void set_z(std::uint64_t i, float z);
 
-    // Replaces the samples of every pixel for which changes(pixel) is true by those that fill(pixel, out) appends to
-    // the last pixel of `out`. Rows run in parallel. It may be called once, and not for a deep view.
+    // Replaces the sample of each pixel for which changes(pixel) is true by those that fill(pixel, out) appends to the
+    // last pixel of `out`, if any. Rows run in parallel. It may be called once, and not for a deep view.
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-    // Frees all channels except coverage.
+    // Frees all channels except A.
     void forget_colours();
 
     // The number of samples in rows [first, end), counted from the top.

@@ -49,21 +49,21 @@ Rgb difference(Rgb a, const Rgb &b, double step);
 // How a picture changes if it is blurred more along x than along y, and along the falling diagonal.
 std::pair<Rgb, Rgb> motion_changes(const Rgb &of);
 
-// How the gathered picture changes with the CoC at the middle depth, the CoC at the ends of the range of depths, and the
-// softness of the whole picture; then with softness along x more than y, and along the diagonals, as motion has it.
+// The changes of a gathered picture that are fitted: with the CoC at the middle depth, with the CoC at the ends of the
+// range of depths, with the softness of the whole picture, and the two of motion_changes().
 inline constexpr std::size_t most_changes = 5;
 using Changes = std::array<double, most_changes>;
 
 struct BlockFit {
     int pixels = 0;                  // that were compared; 0: too few
-    double likelihood = 0;           // its logarithm, that this is the same picture, relative to a flat one
+    double likelihood = 0;           // logarithm of how likely the fit is, relative to a fit by a constant
     double before = 0, left = 0;     // variances of the plate: about its mean, and about the fit
     double shift_x = 0, shift_y = 0; // of the plate against the gathered picture, pixels
     Changes pull{};                  // -1/2 the derivative of the sum of squares by each change
     std::array<Changes, most_changes> stiffness{}; // half its second derivative
 };
 
-// `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: [pixel], 0: not compared.
+// Fits each block, row by row. `changes`: derivatives of `gathered`, at most `most_changes`. `usable`: 0: not compared.
 std::vector<BlockFit> fit_blocks(const Grey &plate, std::span<const std::uint8_t> usable, const Rgb &gathered,
                                  std::span<const Rgb> changes);
 

@@ -287,7 +287,7 @@ public:
     }
 
 private:
-    // The variance that the likelihood has on one side of an axis: 0 if there are no lenses.
+    // The variance that the likelihoods of lenses on one side of an axis imply; 0 if no lens there is allowed.
     double look_along(const LensAxis &axis, double side) {
         const double range = half_range(pictures_);
         double variance = 0;

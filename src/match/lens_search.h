@@ -49,8 +49,8 @@ struct LensCovariance {
     double coc = 0, both = 0, scale = 0;
 };
 
-// An axis of the ellipse that is one deviation: its direction, of unit length, in pixels of CoC at the middle depth and
-// at the ends; and its variance.
+// An axis of the ellipse of one standard deviation: its direction, of unit length, in pixels of CoC at the middle depth
+// and at the ends; and its variance.
 struct LensAxis {
     double coc = 0, ends = 0, variance = 0;
 };
@@ -67,18 +67,18 @@ struct LensFit {
     Rgb shown; // the gathered picture, softened and tone-mapped
 };
 
-// The guesses that a search may begin with, the best first; no two lie on one hill.
+// The guesses that a search may begin with, the best first; no two are near each other.
 std::vector<BlurGuess> search_lens(const Comparison &pictures, const KnownLens &known);
 
-// Follows a guess to the nearest best fit, which is expected `reach_px` pixels of CoC away. Compares at most so many
-// lenses. The fit has no covariance and no motion.
+// Goes from a guess to the nearest maximum of the likelihood, which is expected `reach_px` pixels of CoC away. Compares
+// at most `lenses` lenses. The fit has no covariance and no motion.
 LensFit refine_lens(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, int lenses,
                     double reach_px);
 
 // The sum over the blocks.
 double likelihood_of(const std::vector<BlockFit> &blocks);
 
-// The same, with the covariance and the motion.
+// Like refine_lens(), with the covariance and the motion.
 LensFit measured_lens(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess, int lenses,
                       double reach_px);
 

@@ -18,10 +18,10 @@ struct LikelyLens {
     Rgb linear, shown; // its picture: as gathered, and as the plate shows it
 };
 
-// The picture of the nearest guess that is allowed.
+// `guess`, moved to where allowed() permits, with its pictures and its likelihood.
 LikelyLens compared(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess);
 
-// The same, with the softness that fits best, which needs no other gathered picture.
+// The same, with the softness that fits best in place of the guess's. It gathers only one picture.
 LikelyLens softest(const Comparison &pictures, const KnownLens &known, const BlurGuess &guess);
 
 // How each pixel of a lens's picture changes with the CoC at the middle depth, and with the CoC at the ends of the
@@ -57,7 +57,7 @@ inline constexpr std::size_t quadratic_terms = 6;
 
 class Quadratic {
 public:
-    // Around `middle`; x and y count in units of `reach`, > 0. Where places do not tell a term, it is small.
+    // Around `middle`; x and y count in units of `reach`, > 0. A term that the places do not determine is small.
     Quadratic(std::span<const Place> places, const Place &middle, double reach);
 
     // The share that each place's value has in a term: the term is the sum of shares times values.

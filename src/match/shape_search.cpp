@@ -32,7 +32,7 @@ public:
         return likelihood_of(fit_blocks(pictures_.plate, pictures_.usable, shown, {}));
     }
 
-    // The guess with the CoC at which `to` has the area that `from` has, and the radius, if it is not known.
+    // The guess at which the CoC of shape `to` has the area that `from` has at `guess`. A known radius stays.
     BlurGuess at_equal_area(BlurGuess guess, const ApertureShape &from, const ApertureShape &to) const {
         const double factor = std::sqrt(area_of(from) / area_of(to));
         guess.coc *= factor;
@@ -51,7 +51,7 @@ public:
         return {shape, there, likelihood(shape, there)};
     }
 
-    // Each with the lens that fits it best: the best round lens is another one.
+    // Compares each squeeze at the lens that fits it best, which is not the best round lens.
     Candidate best_squeeze(const BlurGuess &round) const {
         Candidate best{{}, round, likelihood({}, round)};
         for (const double squeeze : MatchTuning::squeezes) {

@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// What lens_search.h gathers, through a lens of this shape.
+// Like Comparison::gather, through a lens of this shape.
 using ShapedGather = std::function<Rgb(const ApertureShape &shape, double coc, double scale, bool exactly)>;
 
 struct ShapeFit {

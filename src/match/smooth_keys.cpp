@@ -67,7 +67,7 @@ struct Curve {
     double stiffness = 0;
     std::vector<double> values;
     double variance = 1; // the square of the factor of all deviations
-    double unlikely = 0; // -2 times the logarithm of the likelihood, but for a constant
+    double unlikely = 0; // -2 times the logarithm of the likelihood, up to a constant
 };
 
 // Unknown values, whose weight is 0, get a little weight, so that one known value is enough.

@@ -15,8 +15,8 @@ namespace sparselens {
 Rgb with_curve_of(const Rgb &plate, std::span<const std::uint8_t> usable, const Rgb &shown);
 
 // The highlights that a plate clips, because a sensor and a file have a largest value. How bright they were is unknown.
-// In a gathered picture, a pixel that a bright lamp covers in part is nearly as bright as the lamp. In a reduced plate it
-// would be grey, so discs, and with them the lens, would look smaller.
+// In a gathered picture, a pixel that a bright lamp covers in part is nearly as bright as the lamp. In a reduced plate,
+// whose lamp is clipped, that pixel is grey, so discs, and with them the lens, would look smaller.
 
 // Makes the clipped values of one channel of a plate brighter. Other values stay.
 void raise_clipped(std::span<float> plane);

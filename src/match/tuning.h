@@ -17,8 +17,8 @@ struct MatchTuning {
     static constexpr int curve_points = 128;
     // A block counts for the tone curve if its error is at most so many times that of most blocks.
     static constexpr double alike = 2;
-    // The errors of a fit have the tails of Student's t distribution with so many degrees of freedom; how often it is
-    // fitted.
+    // The errors of a fit have the tails of Student's t distribution with so many degrees of freedom; the number of
+    // passes of the fit.
     static constexpr double tails = 4;
     static constexpr int robust_fits = 4;
 
@@ -26,7 +26,7 @@ struct MatchTuning {
     // Clipped lamps with grain of 0.03 have 66 % there, other pictures 10 to 20 %.
     static constexpr double bright = 0.95, brightest = 0.99, clipped_share = 0.4;
     // How many times brighter than white clipped highlights count. With 1, three plates of scales and macro had a radius
-    // that was 2 to 10 % too small, with 4 and 64 at most 2 %; with 16, a plate of white squares was off by .1 stops.
+    // that was 2 to 10 % too small, with 4 and 64 at most 2 %; with 16, a plate of white squares was off by 0.1 stops.
     static constexpr float clipped_factor = 4;
 
     // A block shows something if a fit, in some place, explains this share of its variance.
@@ -35,7 +35,7 @@ struct MatchTuning {
     static constexpr std::array<std::array<int, 2>, 8> other_places{
         {{23, 5}, {-23, -7}, {7, 22}, {-5, -23}, {37, -31}, {-35, 33}, {51, 45}, {-53, -43}}};
 
-    // How large the factors of colours are expected to be: they are drawn to 0 by as many times the noise.
+    // The ridge that draws the factors of colours (f and g in blocks.h) to 0, in variances that the other terms leave.
     static constexpr double tint_ridge = 10;
     // The least number of blocks that show something, and the least share of them that match. Plates of other shots
     // match in 7 to 17 %, plates of the shot with an actor over a third of them in 26 % and more.
@@ -59,7 +59,7 @@ struct MatchTuning {
         double coc_px, share;
     };
     // The variance of the blur of a CoC c is wrong by this, square pixels, divided by 1 + c^2. In regions with CoCs of at
-    // most 1.3 to 1.7 pixels, radii were 24 to 60 % too large; their stated deviation is 15 to 25 % by this.
+    // most 1.3 to 1.7 pixels, radii were 24 to 60 % too large; their stated deviation is 15 to 25 % with this.
     static constexpr double small_blur_error = 0.3;
     static constexpr GatherError first_frame_error{0.03, 0.015}, next_frame_error{0.1, 0.03};
 
@@ -71,8 +71,8 @@ struct MatchTuning {
     static constexpr int fewest_blades = 4, most_blades = 9, rotations = 4, shape_lenses = 20;
     static constexpr double finest_turn = 1.5, shape_lead = 3, least_shape_px = 6, shape_px = 8;
 
-    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the best value's weight;
-    // the number of values like which the given deviations count.
+    // Smoothing over frames (smooth_keys.h): the stiffest and the softest curve, relative to the largest weight of a
+    // value; how many values the given deviations count for; the passes that find values which are far off.
     static constexpr double stiffest = 1e6, least_stiff = 1e-4, given_deviations = 4;
     static constexpr int robust_passes = 4;
 
@@ -81,7 +81,7 @@ struct MatchTuning {
     // Distance of neighbouring guesses of the search, pixels of CoC at the reduced size, or as a share of the range of
     // the CoC if that is more.
     static constexpr double search_step = 1.25, search_share = 0.1;
-    // Guesses of the search that are this many steps apart may lie on hills of their own.
+    // Guesses of the search that are this many steps apart may lead to different maxima of the likelihood.
     static constexpr double steps_apart = 1.5;
     // The widest lens of the search, relative to the LDI's; the narrowest blurs by this many reduced pixels.
     static constexpr double widest = 1.3, narrowest_px = 0.5;
@@ -93,7 +93,7 @@ struct MatchTuning {
     // How many lenses are compared at most for each of them: in the search; at the final size, to find out which guesses
     // are worth more; in the final fit; for a next frame.
     static constexpr int search_lenses = 30, first_lenses = 8, final_lenses = 40, next_frame_lenses = 8;
-    // Fits whose softness differs by this many pixels, as a deviation, lie on hills of their own.
+    // Fits whose softness differs by this many pixels, as a deviation, are different maxima of the likelihood.
     static constexpr double softness_apart = 0.5;
     // The reach, pixels of CoC: how far from the best lens others are compared. The first three are its values at the
     // beginning of the search, of the final fit and of the fit of a next frame; then its largest value, and the value

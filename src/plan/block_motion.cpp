@@ -147,7 +147,7 @@ private:
                std::ranges::min(all, {}, [](const auto &one) { return one.second.length2(); }).second;
     }
 
-    // Walks down to the nearest least difference.
+    // Walks down to a local minimum of the difference.
     Imath::V2i valley(Imath::V2i at) const {
         for (;;) {
             Imath::V2i best = at;
@@ -173,7 +173,7 @@ private:
 };
 
 // The displacement of a block, if the way back leads to where it came from. It does not if something has covered it.
-// Along an edge, both searches miss by the same fraction of a square in the same direction, so their difference does not.
+// Along an edge, both searches miss by the same fraction of a square in the same direction: their difference is exact.
 std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &second,
                                          const Imath::V2i &corner, const Imath::V2d &expected) {
     const auto there = Search(first, second, corner, expected).displacement();
@@ -228,7 +228,7 @@ std::vector<BlockMotion> block_motions(const View &first, const View &second,
 
 namespace {
 
-// The sharpest surface in a block, because its steps show first.
+// The CoC of the sharpest surface in a block, whose steps show first.
 double least_coc(const View &view, const ThinLens &lens, const Imath::Box2i &box) {
     double least = std::numeric_limits<double>::infinity();
     for (int y = box.min.y; y <= box.max.y; ++y)

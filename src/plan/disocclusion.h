@@ -2,7 +2,7 @@
 // view alone: its pixels are moved to where the rim view sees them (docs/design.md section 1). Where no pixel lands,
 // the rim view shows something else.
 //
-// Neighbouring pixels whose positions differ by at most a pixel are one surface without cracks. Beyond the border of
+// Neighbouring pixels whose disparities differ by at most a pixel are one surface without cracks. Beyond the border of
 // the picture the scene is assumed to continue like its edge.
 #pragma once
 

@@ -37,7 +37,7 @@ std::vector<double> noise_in_lens_picture(const Image &image, std::span<const fl
 double noise_of_rays(const Image &image, std::span<const float> z, const ThinLens &lens, int across,
                      int rays);
 
-// For each pixel the mean of the tone-mapped colours that the image has, [0, 1) (base/light.h).
+// The mean of tone-mapped R, G and B of each pixel, as far as the image has them, in [0, 1) (base/light.h).
 inline std::vector<double> brightness(const Image &image) {
     std::vector<double> mean(image.windows.pixels());
     double channels = 0;

@@ -179,7 +179,7 @@ double Plan::share() const {
 
 namespace {
 
-// Measures the noise of the centre view, and returns the pixels in which it pays to fight it.
+// Measures the noise of the centre view, and returns the pixels whose noise is worth further samples.
 PixelMask find_noise(const View &centre, const ThinLens &lens, const PlanOptions &options, Plan &plan) {
     const std::vector<double> noise = noise_in_lens_picture(centre.image, centre.z, lens, options.noise);
     plan.noise = std::accumulate(noise.begin(), noise.end(), 0.0) / double(noise.size());

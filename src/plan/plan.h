@@ -34,11 +34,11 @@ struct Plan {
     OverscanNeed overscan;
     double noise = 0;      // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
     std::size_t noisy = 0; // pixels of the centre view that are asked for again, as further samples
-    bool full_views = false; // noise is the larger error: whole views pay as further samples
+    bool full_views = false; // noise is the larger error: whole views are worth it as further samples
     double edges =
         0; // share of pixels of the centre view beside a jump of depth: surfaces are torn (kernels/surface.h)
     int supersample =
-        1; // factor on the size at which views with the same rays pay; 1 if the centre view has sub-pixels
+        1; // factor on the views' size that is worth it for the same rays; 1 if the centre view has sub-pixels
 
     double share() const; // all views together, as a share of one full view
 };
@@ -95,14 +95,14 @@ struct RayDivision {
     int samples = 1;     // samples of each pixel of a view
     int per_render = 0;  // rays of each of the two renders through the lens; 0: views alone
     double noise = 0;    // of one render of all rays through the lens: mean square, tone-mapped
-    bool alone = false;  // such a render has less error than the rest of this division
+    bool alone = false;  // that one render has less error than this division
 
     int of_views() const { return views * samples * supersample * supersample; }
 };
 
-// `rays`: all rays of a pixel. `views`: how many are worth it. `supersample`: the size at which they are worth it; with
-// fewer rays than pixels, they are rendered at the size of the picture. `noise`: as in RayDivision. The division has at
-// most `rays` rays. Throws UsageError if `rays` are fewer than `views`.
+// `rays`: all rays of a pixel. `views`: how many are worth rendering, the centre view included. `supersample`: the size
+// at which they are; a view with fewer rays than its pixels at that size is rendered at the size of the picture.
+// `noise`: as in RayDivision. The division has at most `rays` rays. Throws UsageError if `rays` are fewer than `views`.
 RayDivision divide_rays(int rays, int views, int supersample, double noise);
 
 } // namespace sparselens

@@ -11,7 +11,7 @@ struct PlanTuning {
     // single view is larger, further samples should reduce it.
     static constexpr double noise_that_pays = 6.3e-5;
     // Mean square, tone-mapped. A pixel with more noise is rendered again in every view: it would make the error of the
-    // layers on today's scenes (2e-5, 47 dB) worse by 1.5 dB.
+    // layers on the laboratory's scenes (2e-5, 47 dB) worse by 1.5 dB.
     static constexpr double noise_of_a_pixel_that_pays = 8e-6;
     // Share of all pixels: if fewer are noisy, no view is rendered for them alone.
     static constexpr double few_noisy = 0.01;
@@ -24,7 +24,7 @@ struct PlanTuning {
     // Least number of candidate views on the rim.
     static constexpr int least_candidates = 8;
     // Pixels of margin around an opening of one pixel. There are many such openings, and a larger margin costs more
-    // than it brings (grass: 1.43 instead of about one view, for 0.02 dB).
+    // than it brings (grass: 1.43 full views instead of about one, for 0.02 dB).
     static constexpr int slit_margin = 1;
     // Pixels that a view must uncover: fewer come from rounding positions.
     static constexpr std::size_t least_gain = 8;
@@ -39,8 +39,8 @@ struct PlanTuning {
     // pixel) half to two thirds, a fine checker in a picture of 160x90 one in seven.
     static constexpr double least_gaussian = 0.4;
 
-    // Pixels along the border of the picture: something as near as the surfaces there may stand beyond it and come into
-    // view.
+    // Pixels to either side along the border of the picture: something as near as the surfaces in them may stand beyond
+    // the border and come into view.
     static constexpr int edge_hereabouts = 12;
 
     // Largest width, in pixels, of the reduced pictures in which motion is found.
@@ -64,7 +64,7 @@ struct PlanTuning {
     // ... within so many reduced pixels and this share of the motion.
     static constexpr double alike_pixels = 1, alike_share = 0.2;
 
-    // Pixels: the longest step between two moments of a shutter of what is in focus, ...
+    // Pixels: the longest step of what is in focus between two moments of a shutter, ...
     static constexpr double step_in_focus = 2;
     // ... and how much longer it may be for each pixel of the radius of the CoC. fair, whose wheel and ball move by 13
     // pixels at 320x180, has 33.4 dB with 4 moments, 34.7 with 5, 35.3 with 6, 35.5 with 8 and 35.2 with 16; these steps

@@ -9,8 +9,8 @@
 namespace sparselens {
 
 // The meaning of the numbers of a depth channel: planar z; the length of the ray; 1 / planar z; -z (the z of a camera
-// space that looks along its negative axis); a number from 0 to 1 between two planes (normalized_depth); or such a
-// number that is linear in 1 / z, as depth buffers hold it (hyperbolic_depth); or a disparity (lens/photograph.h).
+// space that looks along its negative axis); a number from 0 to 1 between two planes, linear in z (normalized_depth) or
+// in 1 / z, as in depth buffers (hyperbolic_depth); or a disparity (lens/photograph.h).
 enum class DepthMeaning { planar, distance, inverse, negative, normalized, hyperbolic, disparity };
 
 // Planes in front of the camera, scene units. Anything at `far` or beyond is sky.

@@ -24,8 +24,8 @@ Imath::V2d mean(std::span<const Imath::V2d> points) {
     return sum / double(points.size());
 }
 
-// The uncertainty of a position. Matrices are stored as float, so a camera far from the world's origin is placed no
-// better.
+// The uncertainty of a position, scene units. Matrices are stored as float, so it grows with the distance from the
+// world's origin.
 double rounding(const Camera &camera) {
     const Imath::M44d &m = *camera.world_to_camera;
     return 1e-6 * std::max({std::abs(m[3][0]), std::abs(m[3][1]), std::abs(m[3][2])});

@@ -28,22 +28,22 @@ struct LensViews {
 LensViews position_on_lens(std::span<const Camera> views, std::span<const std::string> names,
                            const std::optional<Camera> &centre);
 
-// Checks pictures that are shifted as a whole. Throws Error, naming the view, if its picture is smaller or larger than
-// the centre's, or if its camera lies in front of or behind the centre by more than a hundredth of the spread of the
-// views.
+// Checks views whose pictures are shifted as a whole. Throws Error, naming the view, if its focal length differs from
+// the centre's, or if its camera lies in front of or behind the centre by more than a hundredth of the largest distance
+// of a view along x or y.
 void require_one_plane(const LensViews &views, std::span<const std::string> names);
 
 // `camera` moved across the lens (x right, y up, scene units), with its matrices.
 Camera moved_across_lens(Camera camera, const Imath::V2d &by);
 
-// Puts views where their cameras stood on the lens.
+// A view, as its file and the user describe it.
 struct StatedView {
     std::string name;                        // for messages
     Camera camera;                           // as its file gives it
     std::optional<Imath::V2d> position = {}; // the position given by the user: scene units, x right, y up
 };
 
-// The position of a view.
+// Where a view stands on the lens, and how it frames the scene.
 struct ViewPlace {
     Imath::V2d position{0, 0}; // as in View
     Framing framing = {};
@@ -54,8 +54,8 @@ struct ViewPlace {
 void require_same_subpixels(const Camera &first, const std::string &first_name, const Camera &other,
                             const std::string &name);
 
-// Throws Error, naming both files, if their cameras are known to have other fields of view. `widths`: of their display
-// windows, in pixels.
+// Throws Error, naming both files, if their cameras are known to have different fields of view. `widths`: of their
+// display windows, in pixels.
 void require_same_field(const Camera &first, const std::string &first_name, const Camera &other,
                         const std::string &name, std::array<int, 2> widths);
 
@@ -93,7 +93,7 @@ struct Frustum {
 // Empty if the matrix is not a perspective projection from the position of that camera.
 std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera);
 
-// Whether w is the same for all points, with row vectors. The unit matrix is not counted.
+// Whether the matrix is that of an orthographic camera: w is the same for all points. The unit matrix does not count.
 bool is_orthographic(const Imath::M44d &world_to_ndc);
 
 struct ProjectionHints {

@@ -52,7 +52,7 @@ ThinLens resolve_lens(const Camera &camera, const Windows &windows);
 // The same, but empty if a value is missing.
 std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows);
 
-// The radius of the lens, in scene units, whose rim the views of an LDI looked from; 0 if its camera does not give
+// The largest distance of an LDI's views from the centre of the lens, in scene units; 0 if its camera does not give
 // their positions.
 double views_radius(const Camera &camera);
 

@@ -48,7 +48,7 @@ struct Camera {
     std::optional<double> metres_per_unit; // (0, inf)
     LookValues looks;                      // only blades, their rotation and the squeeze
     // Width of the picture over the focal length, (0, inf). A field of view or a projection matrix gives it, also if
-    // one of the two is unknown.
+    // the focal length or the sensor width is unknown.
     std::optional<double> field;
     // Where the optical axis meets the picture, relative to the middle of the display window, in display widths, x
     // right, y down, pixels taken as square. If unknown: the middle.
@@ -65,12 +65,12 @@ struct Camera {
     std::map<std::string, std::string> unsure;
 };
 
-// Computes focal length, film back or field of view from the other two if it is missing, unless the file contradicts
-// itself about it (Camera::unsure).
+// Sets the field if focal length and sensor width are known. If only one of the two is known, sets the other one from
+// the field, unless the file contradicts itself about it (Camera::unsure).
 void complete_field(Camera &camera);
 
 // The focal length in pixels of a picture that is `display_width` pixels wide. Empty if neither the field nor both of
-// focal length and film back are known.
+// focal length and sensor width are known.
 std::optional<double> focal_length_px(const Camera &camera, int display_width);
 
 // How the framing of `view` differs from that of `centre`; `forward` is left to position_relative_to(). Values that are

@@ -55,8 +55,8 @@ private:
 // How a camera's own motion moves the picture of things that stand still.
 class CameraMotion {
 public:
-    // Where `to` shows what `from` shows at p (pixels, EXR coordinates) at planar depth z, in (0, inf]. Not a number if
-    // it lies behind that camera.
+    // Where `to` shows what `from` shows at p (pixels, EXR coordinates) at planar depth z, in (0, inf]. NaN if that
+    // lies behind the camera `to`.
     Imath::V2d moved(const Imath::V2d &p, double z) const;
 
 private:

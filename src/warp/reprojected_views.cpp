@@ -82,7 +82,7 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
     return camera(a) != camera(b) ? camera(a) < camera(b) : a.samples < b.samples;
 }
 
-// Settles the lamps of flat views. Deep views need none of this, because their parts mix nothing.
+// Repairs the depths of lamps in flat views. Deep views need no repair, because their parts mix nothing.
 std::vector<PartlyHiddenLamps> repair_lamps(std::vector<ViewSamples> &views,
                                             const std::vector<ViewMapping> &mappings, double tolerance) {
     std::vector<std::size_t> flat;

@@ -27,6 +27,10 @@ struct Surfaces {
     }
 };
 
+// The parts that the nearest pixel of the frame of a deep centre view holds, for a pixel beyond the frame; else empty.
+// If there are any, pixels of flat views count as mixed there and are left out, and the parts continue.
+SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
+
 // Two samples show the same surface if their 1 / z differ by less than `tolerance` (inf: always). Samples in front of
 // what the centre view shows, or where it shows empty space, do not belong to the pixel: only the rounding of their
 // positions brought them there. Reorders the samples of each pixel.
@@ -35,11 +39,6 @@ struct Surfaces {
 // is a surface, which has the samples of rim views that are nearest to it in depth; other surfaces lie behind all of
 // them. A part of a deep view's pixel (view_samples.h) belongs to one surface. If the centre view sees that surface,
 // pixels of flat views that mix several surfaces (reprojected_views.h) are not averaged with it.
-//
-// Beyond the frame of a deep centre view, only the nearest pixel of the frame tells whether pixels of flat views are
-// mixed: if it holds parts, they count as mixed. They are then left out, and the parts continue.
-SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
-
 Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);
 
 // Averages what views show of a surface.

@@ -11,7 +11,7 @@ struct WarpTuning {
     // Largest number of pixels that an LDI grows beyond the centre view on a side.
     static constexpr int most_overscan = 1024;
 
-    // Pixels around the one of a view that must see no farther (extend_surfaces.h).
+    // Pixels around the pixel of a view that must not show anything farther either (extend_surfaces.h).
     static constexpr int sight_margin = 1;
 
     // Solids (extend_surfaces.h). Pixels of disparity: thickness of a surface that no view sees through. With 2,
@@ -19,7 +19,7 @@ struct WarpTuning {
     static constexpr double solid_px = 4;
     // Pixels of disparity: a view counts as seeing something nearer if it is nearer by at least this.
     static constexpr double solid_nearer_px = 0.5;
-    // Pixels of disparity: a gap between surfaces closer than this never shows the background.
+    // Pixels of disparity: if depths around differ by less, no gap shows the background, and nothing is solid.
     static constexpr double solid_relief_px = 1;
 
     // Silhouettes (silhouettes.h). Radius of the pixels that tell the colour of a surface.
@@ -128,11 +128,11 @@ struct WarpTuning {
     // Images that belong together (images/image_depths.h). Share of a block's pixels that must find a depth before its
     // neighbours are searched.
     static constexpr double image_enough_found = 0.25;
-    // Number of the eight blocks beside one: more than at the end of a line.
+    // Number of the eight blocks beside one that must differ too; at the end of a line only one does.
     static constexpr int image_enough_beside = 2;
     // Radius in pixels of depths that lie on a plane.
     static constexpr int image_plane_reach = 6;
-    // Share of the pixels that found a depth: this many are as near to it as the next constant says.
+    // Share of the pixels around that must have found a depth, and share of those that must agree (image_one_px).
     static constexpr double image_agreement = 0.4;
     // Pixels of disparity: depths no farther apart than this belong to one image.
     static constexpr float image_one_px = 0.8f;

@@ -44,9 +44,9 @@ struct WarpOptions {
     WarpDevice *device = nullptr; // if given, works on the rows that it can
 };
 
-// Takes the lens, and `across`, from the camera of the centre view, views[0]. Disparity refers to the lens
-// radius if that is known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError
-// if the focal length is unknown.
+// Takes the lens, and `across`, from the camera of the centre view, views[0]. Disparity refers to the lens radius, or
+// to the distance of the outermost view if that is larger or the radius unknown. A single view needs no lens. Throws
+// UsageError if the focal length is unknown.
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 

@@ -257,7 +257,7 @@ constexpr double largest_ratio = 1.5;  // a larger ratio is an edge
 constexpr double alike = 0.3;          // largest distance from a mean, where one mean is 0 and the other 1
 constexpr double smooth_depth = 0.6;   // the smallest of four steps, relative to their mean
 
-// Where the middle of a slope lies: 0 at the plain mean of its ends, 1 at the harmonic mean. Negative: not a slope.
+// Where the middle of a slope lies, if one was found: 0 at the plain mean of its ends, 1 at the harmonic mean.
 struct Slope {
     bool found = false;
     double place = 0;

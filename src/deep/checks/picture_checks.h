@@ -133,7 +133,7 @@ double largest_circle_of_confusion(std::span<const float> depths, const ThinLens
 // wrong by 100 or 1000 does that to nearly every shot. A lens of radius 0 is meant to do it, and does not count.
 bool blurs_nothing(double largest_coc, const ThinLens &lens);
 
-// The views that stand farther than three lens radii from the centre. Such a lens sees nothing from there, and mixed-up
+// The views that stand farther than three lens radii from the centre. The lens sees nothing from there, and mixed-up
 // units differ by ten and more.
 std::vector<std::size_t> views_beyond_lens(std::span<const PackedView> views, double lens_radius);
 

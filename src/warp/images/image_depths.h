@@ -13,17 +13,17 @@
 
 namespace sparselens {
 
-// Returns the blocks of `data` that are worth a search because their views differ. Blocks that stand alone are left
-// out, because noise chooses such blocks; so are blocks that differ slightly and have fewer than two such blocks beside
-// them.
+// Returns the blocks of `data` that are worth a search because their views differ. A block is left out if no block
+// beside it differs, because noise chooses single blocks, and if it differs slightly and fewer than two beside it
+// differ.
 std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const Disagreement> differ);
 
 // Disparity of the image that a pixel shows; NaN: the pixel shows its surface, or nothing is known.
 using ImageDepthAt = std::function<float(const Imath::V2i &pixel)>;
 using ShowImages = std::function<void(const Imath::Box2i &block, const ImageDepthAt &depth_at)>;
 
-// Searches these blocks, and blocks beside which it has found something. Calls show(block, depth_at) for each, in
-// parallel, once what lies around the block is known, too.
+// Searches these blocks, and the blocks beside those in which many pixels find a depth. Calls show(block, depth_at) for
+// each, in parallel, once what lies around the block is known, too.
 void find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
                        const std::vector<std::size_t> &blocks, const ShowImages &show);
 

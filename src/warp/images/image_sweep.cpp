@@ -120,7 +120,7 @@ void fill_with_median(PatchComparison::Field &depths) {
 } // namespace
 
 void ImageSweep::make_room() const {
-    // of tiles: how far apart a view may show what is searched at one position
+    // rows of tiles: how far apart a view may show what is searched at one position
     constexpr std::size_t rows = 3;
     std::size_t held = 0, much = 0;
     for (const MatchedView &view : views_) {

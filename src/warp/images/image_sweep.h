@@ -99,7 +99,7 @@ struct ImageGuesses {
 // Pixels are numbered block by block, in searched blocks only, because most pictures show few mirrors.
 class ImageSearch {
 public:
-    // Searches these blocks of `data`, and blocks beside which it has found something.
+    // Searches these blocks of `data`, and the blocks beside those in which many pixels find a depth.
     ImageSearch(const ImageSweep &sweep, const Imath::Box2i &data, const std::vector<std::size_t> &blocks);
 
     const ImageSweep &sweep() const { return sweep_; }

@@ -20,7 +20,7 @@
 
 namespace sparselens {
 
-// A view with one sample per pixel, or more on silhouettes. The mapping says where its camera stands.
+// The samples of a view, and the mapping that says where its camera stands. Refers to both.
 struct PlacedView {
     const ViewSamples *samples;
     const ViewMapping *mapping;

@@ -19,7 +19,7 @@
 namespace sparselens {
 
 // Finds the depth of small lamps for which all views have the depth of what is behind. All views must show a lamp where
-// its depth says that they do: if some did not, their light would stay at the wall, and be there twice.
+// its depth says that they do: in the others its light would stay at the wall, and the lamp would show twice.
 
 // A lamp in front of everything around it.
 struct KnownLamp {
@@ -37,9 +37,9 @@ struct LampBeforeWall {
     double around = 0; // 1 / z of the nearest thing around
 };
 
-// Returns the lamps with their positions in the centre view. `lamps`: of each view by rows, 1000 at most, because more
-// are noise. Depths whose inverses differ by less than `tolerance` are one surface. Lamps that may as well lie on what
-// is around them are left out.
+// Returns the lamps with their positions in the centre view. `lamps`: of each view by rows. More than
+// WarpTuning::most_lamps in a view are noise, and give no result. Depths whose inverses differ by less than `tolerance`
+// are one surface. Lamps that may as well lie on what is around them are left out.
 std::vector<KnownLamp> depths_by_parallax(std::span<const std::vector<LampBeforeWall>> lamps,
                                           std::span<const ViewMapping> mappings, double tolerance);
 
@@ -95,7 +95,7 @@ public:
     std::vector<std::size_t> crossed() const;
     // The lamps whose depth is not known, by rows.
     std::vector<LampBeforeWall> unknown() const;
-    // Settles lamps by others whose positions are in the centre view.
+    // Gives lamps of unknown depth that of `others` at the same place, whose positions are in the centre view.
     void repair_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
 
 private:

@@ -1,9 +1,9 @@
 // Corrects the depth of small lamps' pixels where the renderer wrote the depth of what is behind them.
 //
 // A renderer takes the depth of a pixel on a lamp's edge from one of its samples, which may show the lamp or the wall
-// behind. Either way most of its light is the lamp's, and would be seen at the depth of the wall. So pixels of a small
-// lamp in front of everything around it take the depth of pixels beside them that have the lamp's depth. Pixels of a
-// lamp that strands or bars cross do so, too; nothing around has its depth. silhouettes.h gives back to the lamp the
+// behind. Either way most of its light is the lamp's and must not be seen at the wall's depth. So pixels of a small
+// lamp in front of everything around it take the depth of pixels beside them that have the lamp's depth. All pixels of
+// a lamp that strands or bars cross take it, if nothing around has that depth. silhouettes.h gives back to the lamp the
 // light that has the depth of a strand. If a view has no pixel at the lamp's depth, other views that show as much light
 // at that position give the depth. If all views have the wall's depth, the lamp gets the depth at which its positions
 // in all views agree, unless the wall's depth explains the positions equally well. Pixels that show little of a lamp

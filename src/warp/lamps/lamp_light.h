@@ -27,8 +27,8 @@ void keep_light_of_lamps(std::span<const PlacedView> views, double scale, double
 // Finds small bright lights in a picture, by brightness alone.
 //
 // A lamp is a group of pixels. The brightest has more than eight times the median of the block of 16 x 16 pixels around
-// it; the others have more than four times that median, and more than a fiftieth of the brightest. Groups larger than
-// twelve pixels, and bright pixels beside them, are not lamps.
+// it; the others have more than four times that median, and more than a fiftieth of the brightest. Groups wider or
+// higher than twelve pixels, and bright pixels beside them, are not lamps.
 struct CompactLamp {
     std::vector<Imath::V2i> pixels; // the brightest first
     float limit;                    // all of them are brighter
@@ -38,14 +38,14 @@ struct CompactLamp {
 // `brightness` of each pixel of the grid, row by row. No two lamps share a pixel.
 std::vector<CompactLamp> find_compact_lamps(const Grid &grid, std::span<const float> brightness);
 
-// The light of samples in a picture of layers: R + G + B, less what samples in front hide.
+// The value of a sample in a channel.
 inline float value_in(const Ldi &ldi, std::size_t channel, std::uint64_t i) { return ldi.values[channel][i]; }
 
 inline float value_in(const ViewSamples &view, std::size_t channel, std::uint64_t i) {
     return view.value(channel, i);
 }
 
-// The light of pixels of an Ldi or of ViewSamples.
+// The light of samples and pixels of an Ldi or of ViewSamples: R + G + B, less what samples in front hide.
 template <typename Samples>
 class PixelLight {
 public:

@@ -128,7 +128,7 @@ std::vector<Ground> grounds_around(const SamplesAround &samples, int x, int y, i
     return grounds;
 }
 
-// The same surfaces, each once, where other views show what the pixel hides of them.
+// The same surfaces, each once, with the colours that other views show of them behind the pixel.
 std::vector<Ground> grounds_elsewhere(const BackgroundFromViews &others, int x, int y,
                                       std::span<const Ground> around) {
     std::vector<Ground> grounds;
