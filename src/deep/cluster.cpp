@@ -91,10 +91,11 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
         terms.push_back({n, share});
     });
     if (i == end) return;
-    const double surface = p.front(i);
+    const std::uint64_t first = i;
+    const double surface = p.front(first);
     const std::size_t first_opaque = terms.size();
     double weights = 0;
-    for (; i < end && surface - p.back(i) <= tolerance; ++i)
+    for (; i < end && (i == first || surface - p.back(i) <= tolerance); ++i)
         if (is_one_in_half(alpha_at(p.ldi, p.alpha, i))) {
             const double weight = sample_at(p.ldi, i).weight;
             terms.push_back({i, transmittance * weight});

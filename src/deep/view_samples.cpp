@@ -1,4 +1,3 @@
-
 #include "deep/view_samples.h"
 
 #include "base/error.h"

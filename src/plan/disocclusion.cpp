@@ -84,8 +84,9 @@ private:
         const Imath::Box2d box({first(x - reach(column, row, -1, 0)), first(y - reach(column, row, 0, -1))},
                                {first(x + reach(column, row, 1, 0)), first(y + reach(column, row, 0, 1))});
         const Imath::Box2d own({first(x - 1), first(y - 1)}, {first(x + 1), first(y + 1)});
-        const int x0 = int(std::max(box.min.x, 0.0)), x1 = int(std::min(box.max.x, double(grid_.width())));
-        const int y0 = int(std::max(box.min.y, 0.0)), y1 = int(std::min(box.max.y, double(grid_.height())));
+        const auto within = [](double edge, int size) { return int(std::clamp(edge, 0.0, double(size))); };
+        const int x0 = within(box.min.x, grid_.width()), x1 = within(box.max.x, grid_.width());
+        const int y0 = within(box.min.y, grid_.height()), y1 = within(box.max.y, grid_.height());
         for (int to_y = y0; to_y < y1; ++to_y)
             for (int to_x = x0; to_x < x1; ++to_x) {
                 const std::size_t to = grid_.index(to_x, to_y);

@@ -12,6 +12,7 @@ namespace sparselens {
 
 bool is_sky(DepthMeaning meaning, double value, double far) {
     constexpr double largest_half = 65504;
+    if (meaning == DepthMeaning::disparity) return false; // large values are near
     if (meaning == DepthMeaning::inverse) return value >= 0 && value <= 1 / far;
     if (meaning == DepthMeaning::normalized || meaning == DepthMeaning::hyperbolic) return value >= 1;
     const double depth =

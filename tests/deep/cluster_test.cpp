@@ -130,6 +130,18 @@ TEST(Cluster, AVolumeAmongPointsMakesAVolume) {
     EXPECT_EQ(points[1].z, points[1].z_back); // points stay points, also in a file with volumes
 }
 
+// An opaque volume may be deeper than the tolerance. It is the whole of its cluster, or lies behind veils.
+TEST(Cluster, AnOpaqueVolumeDeeperThanTheToleranceStays) {
+    const TestSample volume{.z = 2, .z_back = 40}, veil{.z = 1.999f, .alpha = 0.5f};
+    const TestPixel alone = clustered(TestPixel{volume}, {.tolerance = 0.01});
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_EQ(alone[0].z_back, 40);
+    const TestPixel behind_veil = clustered(TestPixel{veil, volume}, {.layers = 1});
+    ASSERT_EQ(behind_veil.size(), 1u);
+    EXPECT_EQ(behind_veil[0].z_back, 40);
+    EXPECT_EQ(behind_veil[0].alpha, 1);
+}
+
 TEST(Cluster, MakesAsFewAsCanBeWithinTheTolerance) {
     for (std::uint32_t seed = 1; seed <= 10; ++seed)
         for (const double tolerance : {0.01, 0.05, 0.2}) {

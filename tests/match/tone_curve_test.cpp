@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sparselens {
@@ -28,19 +29,25 @@ TEST(ToneCurve, a_picture_gets_the_curve_of_the_plate) {
             ASSERT_NEAR(curved.rgb[k][i], plate.rgb[k][i], 0.01) << k << ", " << i;
 }
 
-// An actor over a third of the plate, with values of their own, hardly bends the curve.
+// An actor over a third of the plate, with values of their own, hardly bends the curve, whatever is not usable below.
 TEST(ToneCurve, other_content_over_a_third_hardly_counts) {
-    const Rgb shown = test::waves(96, 64), plain = filmed(shown);
-    const Rgb actor = test::colours(
-        96, 64, [](double x, double y, std::size_t) { return std::fmod(x + 2 * y, 9.0) < 4 ? 0.9 : 0.05; });
-    Rgb plate = plain;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < shown.grid.size(); ++i)
-            if (i % 96 >= 32 && i % 96 < 64) plate.rgb[k][i] = actor.rgb[k][i];
-    const Rgb curved = with_curve_of(plate, test::all_usable(shown.grid), shown);
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < shown.grid.size(); ++i)
-            ASSERT_NEAR(curved.rgb[k][i], plain.rgb[k][i], 0.02) << k << ", " << i;
+    for (const int unusable_rows : {0, 128}) {
+        const int height = 64 + unusable_rows;
+        const Rgb shown = test::waves(96, height), plain = filmed(shown);
+        const Rgb actor = test::colours(96, height, [](double x, double y, std::size_t) {
+            return std::fmod(x + 2 * y, 9.0) < 4 ? 0.9 : 0.05;
+        });
+        Rgb plate = plain;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < shown.grid.size(); ++i)
+                if (i % 96 >= 32 && i % 96 < 64) plate.rgb[k][i] = actor.rgb[k][i];
+        std::vector<std::uint8_t> usable = test::all_usable(shown.grid);
+        std::fill(usable.begin() + 64 * 96, usable.end(), 0);
+        const Rgb curved = with_curve_of(plate, usable, shown);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 64 * 96; ++i)
+                ASSERT_NEAR(curved.rgb[k][i], plain.rgb[k][i], 0.02) << k << ", " << i;
+    }
 }
 
 // A search compares pictures that differ a little. Their curves must differ a little, too.

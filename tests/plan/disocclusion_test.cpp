@@ -41,6 +41,15 @@ TEST(Disocclusion, WhatOpensBesideACard) {
     for (int y = 0; y < 20; ++y) EXPECT_EQ(disoccluded(from_above).at(30, y), y >= 9 && y < 13) << y;
 }
 
+// A card at the lens itself leaves the picture, whatever its disparity.
+TEST(Disocclusion, WhatIsAtTheLensLeavesThePicture) {
+    for (const float near : {1e-3f, 1e-9f, 1e-30f})
+        for (const Imath::V2d &u : {Imath::V2d(1, 0), Imath::V2d(-1, 0), Imath::V2d(0, 1), Imath::V2d(0, -1)}) {
+            const auto z = [&](int x, int y) { return x >= 20 && x < 30 && y >= 8 && y < 12 ? near : 10.0f; };
+            EXPECT_TRUE(disoccluded(moved(z, u)).at(25, 10)) << near << u;
+        }
+}
+
 // A wire in column 30 moves away by 5 px and the wall by 1: it hid one column, which is a slit.
 TEST(Disocclusion, WhatAWireHides) {
     const PixelMask hidden = disoccluded(moved([](int x, int) { return x == 30 ? 2.0f : 10.0f; }));
