@@ -63,8 +63,8 @@ bool is_in(std::string_view list, const std::string &word) {
     return list.find(' ' + word + ' ') != std::string_view::npos;
 }
 
-// Whether a layer, or a channel without one, has a name of data: the whole name, also after "AOV", one of its words, or
-// P or N and the space in which they are.
+// Whether the name of a layer, or of a channel without a layer, says that it holds data: the whole name does (also
+// after "AOV"), or one of its words does, or it is P or N with the name of a space.
 bool names_data(const std::string &name) {
     static constexpr std::string_view whole =
         " n ng ns nn p pref rest point uv uvs uvw st mv mv2d mvec depth z pz "

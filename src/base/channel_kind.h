@@ -20,7 +20,7 @@ namespace sparselens {
 
 struct Channel;
 
-// Integers are ids by their type, whatever their kind says; numbers of layers named as ids are data that holds_ids().
+// A channel of integers holds ids whatever its kind. Floats in a layer named as ids are data that holds_ids().
 enum class ChannelKind { light, data, matte_id, matte_coverage };
 
 bool holds_ids(const Channel &channel);

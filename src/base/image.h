@@ -113,9 +113,6 @@ bool all_found(const std::array<std::size_t, 3> &channels);
 // The channels R, G, B and A, as half.
 std::vector<Channel> rgba_channels();
 
-// The values of one channel of a picture, bit by bit in little memory: one value if all are the same, as in the
-// coverage of an opaque picture; halves if these hold every value, as colours of most files; otherwise floats.
-
 // Halves (16 bits) of floats, bit by bit.
 inline std::uint16_t bits_of_half(float value) { return Imath::half(value).bits(); } // rounded
 
@@ -126,6 +123,8 @@ inline bool is_half(float value) {
     return std::bit_cast<std::uint32_t>(of_half(bits_of_half(value))) == std::bit_cast<std::uint32_t>(value);
 }
 
+// The values of one channel of a picture, bit by bit in little memory: one value if all are the same, as in the
+// coverage of an opaque picture; halves if halves hold every value, as in most files; otherwise floats.
 class Plane {
 public:
     Plane() = default;

@@ -23,15 +23,15 @@ inline double srgb_encoded(double v) {
 }
 inline double srgb_decoded(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
-// Whether a sample hides what is behind it. The last steps of half below 1 are rounding, not coverage.
+// Whether a sample hides what is behind it. The last value of half below 1 is rounding, not a gap.
 inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
 // A pixel shows a sample if at least this share of the sample shows; a smaller share means that something is in front.
 inline constexpr float half_covered = 0.5f;
 // Whether light gets through. Less than 1/2048 of a pixel left over is rounding.
 inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 
-// Whether half rounds the coverage to 1: its last step below 1 is 2^-11. Smaller coverage keeps the samples behind it
-// when merged, as a lamp shines through the last step.
+// Whether half rounds the coverage to 1; its last step below 1 is 2^-11. When samples are merged, smaller coverage
+// keeps the samples behind it, because a lamp shines through even the last step.
 inline bool is_one_in_half(float alpha) { return alpha >= 1 - 0x1p-12f; }
 
 // Tolerance for one pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may

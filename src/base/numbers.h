@@ -29,7 +29,7 @@ constexpr std::uint32_t mix_bits(std::uint32_t a, std::uint32_t b) { return mix_
 constexpr double unit_interval(std::uint32_t h) { return double(h >> 8) * 0x1p-24; }
 
 // Point `index` of the two-dimensional Kronecker sequence with the plastic number (M. Roberts, "The
-// unreasonable effectiveness of quasirandom sequences", 2018), shifted by `shift` modulo 1; both in [0, 1).
+// unreasonable effectiveness of quasirandom sequences", 2018), shifted modulo 1; `shift` and the point are in [0, 1).
 inline Imath::V2d low_discrepancy_2d(std::uint32_t index, const Imath::V2d &shift) {
     // 1/g and 1/g^2 in units of 2^-32, so that the fractional part is the integer product's wrap-around.
     const std::uint32_t x = index * 3242174889u, y = index * 2447445414u;

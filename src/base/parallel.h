@@ -69,8 +69,8 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
 // Makes pieces on all threads, and takes them one by one in their order, for example a file that is read a few rows at
 // a time.
 //
-// Each thread makes at most one piece at a time, and at most as many finished pieces wait to be taken, so the pieces
-// never need all their memory at once.
+// Each thread makes at most one piece at a time. The pieces that are made or wait to be taken are at most twice as
+// many as the threads, so the pieces never need all their memory at once.
 
 // Calls take(i, make(i)) for every i in [0, count). Any thread may call make(). take() is called for 0, 1, 2 ..., by
 // one thread at a time. If calls throw, the caller gets the exception of the least i, whatever the number of threads,

@@ -39,8 +39,8 @@ struct Range {
     bool has(int at) const { return at >= least && at <= most; }
 };
 
-// The sub-pixels that a picture has along an axis, and the known ones: in its display window, those that it
-// does not have are empty.
+// The sub-pixels that a picture has along an axis, and the known ones: these, and the rest of its display window, which
+// is empty.
 struct Extent {
     Range there, known;
 

@@ -40,8 +40,8 @@ struct NamedHeader {
     std::string name; // of the file, for messages
 };
 
-// Makes linear colours, in the space that their header states, those of the space that another header states, and says so
-// if the two differ.
+// Converts linear colours from the space that their header states (`stated`) to the space that `wanted` states, with a
+// notice, if the two differ.
 void to_space_of(const Notify &notify, const ColourOptions &options, const NamedHeader &wanted,
                  const NamedHeader &stated, Image &image);
 
@@ -55,17 +55,17 @@ bool is_linear(const Notify &notify, const ColourOptions &options, const std::st
 // The transform from linear colours, in the space that `metadata` states, to those of a PNG; see write_picture().
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata);
 
-// Makes the linear colours of a picture those of an OpenEXR file in `output_colorspace`, and its header that of the
-// file; see write_picture(). Throws UsageError, naming `path`, if a display is given.
+// Converts the linear colours and the header of a picture to those of an OpenEXR file in `output_colorspace`; see
+// write_picture(). Throws UsageError, naming `path`, if a display is given.
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header);
 
-// Makes the linear colours of a picture those of the file of that name for the screen, and drops coverage that it cannot
-// hold; see write_picture(). Returns false if the colours stay linear.
+// Converts the linear colours of a picture to those of the file `path` (PNG, JPEG, .hdr and the like), and drops
+// coverage that it cannot hold; see write_picture(). Returns false if the colours stay linear.
 bool to_shown_colours(const ColourOptions &options, const std::string &path, Image &image,
                       const Imf::Header &metadata);
 
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
-// files are written in `output_colorspace` (default: the picture's own space), stated by chromaticities; so are files of
+// files are written in `output_colorspace` (default: the picture's own), stated by chromaticities; so are files of
 // linear light such as .hdr. PNG, JPEG, TIFF and the like are written in `output_colorspace`, or else through `display`
 // and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws
 // UsageError for a display with an OpenEXR file, and for a compression or tiles with any other. Returns what

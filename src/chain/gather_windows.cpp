@@ -94,7 +94,7 @@ void check_warped_for(int across, int said, const OpenedLdi &in) {
                     in.name, said, said, across, across, across));
 }
 
-// Makes all pixels needed that show gathered ones. No filter adds pixels beyond the display window.
+// Needs all gathered pixels, for all pixels of the picture in its display window that show any of them.
 void need_all(GatherWindows &frame, const Imath::Box2i &display) {
     frame.needed = frame.gathered;
     frame.picture = reduced(frame.gathered, frame.subpixels.across);

@@ -34,8 +34,8 @@ struct WindowOptions {
 };
 
 // The sub-pixels, from the options or the file. Throws UsageError if the display window would cut a block of
-// sub-pixels, or if the views were warped for so much larger pixels that the LDI would be different
-// (kernels/warp_rules.h).
+// sub-pixels, or if the views were warped for so much smaller pixels that the LDI would be different (motion_unit() in
+// kernels/warp_rules.h).
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
 
 // The pixels to gather, the needed ones among them, and the picture that they become, by `subpixels`. A proxy, or a

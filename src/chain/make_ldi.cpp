@@ -80,7 +80,7 @@ std::vector<std::optional<FilmCamera>> films_of(const LdiFromViews &request,
     return films;
 }
 
-constexpr std::size_t not_packed_yet = 2; // views in memory; packed ones take half
+constexpr std::size_t not_packed_yet = 2; // views read at once; packed, they take half the memory
 
 // The position of a view is the given one, or else follows from worldToCamera (see position_on_lens, whose errors are
 // thrown). Its framing comes from its metadata, or else from the centre view.

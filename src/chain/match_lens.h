@@ -42,7 +42,7 @@ struct MatchedLens {
     Image fit = {}; // the gathered picture beside the plate, in grey, tone-mapped as they were compared
 };
 
-// What to find. The other value of the lens is right.
+// Which values of the lens to find; a value that is not to be found is taken as given.
 enum class MatchFit { both, focus, fstop };
 
 struct MatchRequest {
@@ -65,7 +65,7 @@ struct MatchedShape {
     double squeeze = 1;
 };
 
-// Finds the shape. Without a value if the plate does not tell: it has no lens that can be found, or too little blur, or
+// Finds the shape. Returns nothing if the plate does not tell: no lens can be found for it, it has too little blur, or
 // all shapes fit about as well. Throws as match_lens() does.
 std::optional<MatchedShape> match_shape(const OpenedLdi &in, const Image &plate,
                                         const std::string &plate_name, const MatchRequest &request,
@@ -74,8 +74,8 @@ std::optional<MatchedShape> match_shape(const OpenedLdi &in, const Image &plate,
 // The request with this shape.
 MatchRequest with_shape(MatchRequest request, const MatchedShape &shape);
 
-// Matches the plates of a shot one after the other: each is looked for near the lens of the one before first, and the
-// lenses are smooth over time.
+// Matches the plates of a shot one after the other. The lens of each is first looked for near that of the plate before
+// it. Then the lenses are smoothed over time.
 struct MatchedFrames {
     std::vector<MatchedLens> lenses; // without the pictures of their fits
     std::vector<std::string> warnings;

@@ -41,10 +41,10 @@ public:
     int by() const { return by_; }
     double radius() const { return radius_; }
     double depth_scale() const; // R F, pixels times scene units
-    // What an error of small blur, MatchTuning::small_blur_error, changes in a fitted lens, as a deviation.
+    // The deviation of a fitted lens that an error of small blur (MatchTuning::small_blur_error) causes.
     BlurGuess blur_error(const BlurGuess &guess, const KnownLens &known) const;
     const ApertureShape &shape() const { return exactly_.gather.lens.looks.aperture; }
-    // Through a lens of another shape.
+    // Gathers the compared pixels through a lens of this shape. `coc`, `scale`: as in BlurGuess.
     Rgb gather(const ApertureShape &shape, double coc, double scale, bool exactly) const;
 
 private:

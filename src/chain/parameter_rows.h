@@ -87,7 +87,7 @@ bool read_place(const Parameter &row, const std::string &text, std::optional<Val
     return read_place(row, text, place.emplace());
 }
 
-// The value goes into this member of this member of ... the values.
+// Puts the value into a member of the values, or into a member of that member, and so on.
 template <typename... Members>
 auto in(Members... members) {
     return [=](const Parameter &row, const std::string &text, auto &values) {
@@ -95,7 +95,7 @@ auto in(Members... members) {
     };
 }
 
-// Says the same of each row, unless it says something itself.
+// Gives all rows this method, this group if they have none, and this call, except to rows that are of_tools().
 template <typename Values>
 Rows<Values> all(Rows<Values> rows, const char *group, const char *method = "",
                  PythonCall python = PythonCall::gather) {

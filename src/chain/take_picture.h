@@ -111,8 +111,8 @@ TakenPicture take_picture(OpenedLdi &&in, const PictureRequest &request, const P
 // The same, if a proxy of the LDI was made before; `in` then needs no samples, but the focus must be known.
 TakenPicture take_picture(const OpenedLdi &in, GatherWindows made_before, const PictureRequest &request,
                           const PictureWork &work);
-// Takes the picture of a file. If the cache need not keep it for the next picture, and the picture allows, fewer
-// samples are held while it is read.
+// Takes the picture of a file. If the cache need not keep the file (`keep`), and the picture allows it, fewer samples
+// are held while the file is read.
 TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &request, const PictureWork &work);
 
 // What take_picture() will return, before the work of gathering: the image has its windows and channels, and no values.

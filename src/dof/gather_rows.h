@@ -26,10 +26,10 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
                   const Imath::Box2i &written, const PictureOptions &options, const BandLimits &limits,
                   Progress &progress);
 
-// From how many rows away other rows influence a row of the picture, and the samples of a row.
+// How many rows away samples influence a row of the picture, and other samples influence these.
 struct RowReach {
     int seen = 0;     // samples, facets and fillers this far away reach a pixel
-    int prepared = 0; // samples this far away give them their colours
+    int prepared = 0; // samples this far from those influence their colours
 };
 // `across`: pixels, across and down, that become one of the picture.
 RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks, int across = 1);

@@ -121,7 +121,7 @@ public:
             return std::clamp(float(1 / inverse), ldi_.z[run.from], ldi_.z[run.to - 1]);
         });
     }
-    // A run of volumes alone ends where they do; another is a point, which ends at its depth.
+    // A run of volumes only ends where its last volume ends. Any other run is a point, which ends at its depth.
     std::vector<float> backs(const std::vector<float> &depths) const {
         if (ldi_.z_back.empty()) return {};
         std::vector<float> backs = for_runs(ldi_, runs_, [&](const Run &run) {

@@ -4,7 +4,7 @@
 // CoCs do) and their positions all lie within a tolerance. The last of them may be opaque, the others have partial
 // coverage. They are composited by `over`, so that the flattened picture does not change. Depth (as 1 / z) and position
 // become means, weighted by what each sample shows. No CoC or coordinate changes by more than the tolerance, or by half
-// of it if the samples are equal.
+// of it if two samples show equally much.
 #pragma once
 
 #include "../deep/ldi.h"
@@ -13,8 +13,8 @@ namespace sparselens {
 
 inline constexpr double layer_tolerance_px = 0.25;
 
-// Whether the samples can be merged. Cryptomattes cannot, because a sample holds few ids, nor can samples whose
-// coverage differs by channel.
+// Whether the samples can be merged. Cryptomattes cannot, because a sample holds few ids, nor can samples without
+// coverage, or with a coverage that differs by channel.
 bool can_merge_layers(const Ldi &ldi);
 
 // `scale` is R F, pixels times scene units. Volumes get one depth first (below). The result has no weights, because the
@@ -33,8 +33,8 @@ Ldi merge_layers(Ldi &&ldi, double scale, double tolerance);
 // The mean of that distribution, as a share of the volume's extent: 0.5 without coverage, 0 for coverage 1.
 double shown_depth(double alpha);
 
-// Moves each volume, and its image in a mirror, to its mean depth, and says by an endless extent that it is a volume
-// which has its depth: volumes that never end stay where they are. Volumes do not overlap, so samples keep their order.
+// Moves each volume to its mean depth, and its image in a mirror as far. An infinite z_back then marks it as a volume
+// that has its depth; volumes that never end stay where they are. Volumes do not overlap, so samples keep their order.
 Ldi at_shown_depths(Ldi ldi);
 
 } // namespace sparselens

@@ -83,7 +83,7 @@ struct GatherTuning {
     // share of their contrast (unmix()).
     static constexpr double filler_mixed = 0.1;
 
-    // What leaves the frame (lens/beyond/border.h). Pixels of the picture along the border, on either side of a pixel,
+    // What leaves the frame (lens/beyond/frame_extension.h). Pixels of the picture along the border, beside a pixel,
     // that count as its surroundings.
     static constexpr int border_along = 32;
     // Pixels of the picture, inwards from the border, that tell how far something continues. Bands of rows include as

@@ -54,7 +54,7 @@ Plan plan_of(const std::vector<Part> &parts, double fall, double rays_wanted, do
     return {fall, std::exp(most)};
 }
 
-// Cuts a lattice of blocks in two, and one of the pieces again, and so on: where most is saved.
+// Cuts a lattice of blocks in two, then one of the pieces, and so on, each time where it saves most.
 std::vector<Imath::Box2i> pieces_of(const Grid &lattice, const Plan &plan,
                                     const std::function<Part(const Imath::Box2i &)> &part_of) {
     std::vector<Imath::Box2i> pieces{lattice.box()};

@@ -1,7 +1,7 @@
 // Says where more rays are needed: in each pixel, and in a few rectangles, which renderers can render by themselves.
 //
-// The error of a block falls as a power of its rays (fall_of()). So it is least if rays go as the error of one ray to
-// the power 1 / (1 + fall). Rays that are there are not taken away.
+// The error of a block falls as a power of its rays (fall_of()). So the whole error is least if each block has rays in
+// proportion to its error with one ray, to the power 1 / (1 + fall). No block gets fewer rays than it has.
 #pragma once
 
 #include "finish/finish_picture.h"

@@ -32,8 +32,8 @@ void ring_sum(Values &values, const Grid &grid) {
     for_cells(grid, [&](std::size_t i) { values[i] = outer * values[i] - inner * near[i]; });
 }
 
-// The two measures that give a cell's class, for each picture: a logarithm and standard deviations, later places among
-// classes.
+// The two measures that give a cell's class, for each picture: first a logarithm and standard deviations, then the
+// places of these among the classes.
 struct Measures {
     std::array<Values, 3> energy_ratio, confirmed;
 };
@@ -183,7 +183,7 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
 
 namespace {
 
-// The same for a run of pixels.
+// What CellEvidence is the mean of, for a run of pixels.
 struct RunEvidence {
     std::array<Run, 3> energy{};
     std::array<Run, 2> confirmed{}, left{}, removed{};

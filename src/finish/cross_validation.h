@@ -3,7 +3,7 @@
 // A candidate B of one render replaces the current picture A by A + t (B - A). The share t that fits the other render y
 // best is sum w (B - A)(y - A) / sum w (B - A)^2, with w from the tone curve. It is linear in y, so the noise of y
 // cannot bias it. But a sum over a few pixels is noisy, and changes that are accepted by chance sparkle in a sequence.
-// So the sums run over all cells (cells.h) of a class. Two measures of each cell define the classes:
+// So the sums run over all cells (window_means.h) of a class. Two measures of each cell define the classes:
 //   - the energy of B - A around it, over the energy of B's noise as shown by the two renders, and
 //   - how clearly the renders confirm B - A in a ring around it, in standard deviations. The ring leaves out the
 //     cell itself.
@@ -15,8 +15,8 @@
 
 namespace sparselens {
 
-// The evidence of two independent renders about a candidate, cell by cell (cells.h): how much it changes, how much of
-// the change the other render confirms, which did not make it, and how much is noise.
+// The evidence of two independent renders about a candidate, cell by cell: how much it changes, how much of the change
+// is confirmed by the render that did not make it, and how much is noise.
 
 // Two independent renders of the same pixels.
 struct RayEvidence {

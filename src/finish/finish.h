@@ -41,7 +41,7 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress);
 // that of the whole picture: close to 1 where the guide is right, to 0 where it shows something else. The prediction is
 // linear in the rays.
 //
-// Lines are fitted for cells (cells.h) and interpolated.
+// Lines are fitted for cells (window_means.h) and interpolated.
 
 // The weight of each pixel of a guide: 1 / (1 + brightness)^2.
 Values tone_weights(const Colours &guide);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render has no value
 
-// Fourth powers of larger values overflow, so that brighter pixels stay as gathered.
+// Sums of fourth powers of larger values may overflow, so brighter pixels stay as gathered.
 constexpr float largest = 1e8f;
 
 bool is_usable(float value) { return std::abs(value) <= largest; } // false for NaN

@@ -40,7 +40,7 @@ std::optional<double> decibels(const ErrorEstimate &error);
 // one render to two: 1/4 to 1.
 double fall_of(const ErrorEstimate &error, const std::array<double, 2> &samples);
 
-// By which factor the rays must grow for a finished picture of `goal` dB; at least 1, empty if that cannot be determined.
+// By which factor the rays must grow for a finished picture of `goal` dB; at least 1, empty if decibels() is empty.
 std::optional<double> times_the_rays(const ErrorEstimate &error, const std::array<double, 2> &samples,
                                      double goal);
 
@@ -52,25 +52,24 @@ struct Render {
     double samples = 1; // per pixel, > 0
 };
 
-// Two or more independent renders through the same lens, added up to two halves: each goes where its pixels have fewer
-// samples. Pixels outside a render's data window, and pixels with a value that is not finite or above 1e8, have none of
-// it; pixels that a half lacks stay as gathered.
+// Two or more independent renders through the same lens, added up to two halves: each is added to the half that has
+// fewer samples in its pixels. Pixels outside of its data window, and pixels with a value that is not finite or beyond
+// 1e8, are left out. Pixels that a half lacks stay as gathered.
 class TwoHalves {
 public:
     explicit TwoHalves(const Image &gathered);
 
     // Throws Error, naming the file, if its display window differs from that of the gathered picture.
     void add(const Render &render);
-    // The same for a noisy render. Also throws Error if it has the noise of an earlier one: it is the same render, or has
-    // the same seed, so the halves would not tell the noise. Other noise than samples make gives a doubt.
+    // The same for a noisy render. Also throws Error if it has the noise of an earlier one: it is the same render, or
+    // has the same seed, so the halves would not tell the noise. Noise unlike that of so many samples adds a doubt.
     void add_noisy(const Render &render);
     const std::vector<std::string> &doubts() const { return doubts_; } // for warnings
     bool complete() const;                                             // whether any pixel has both halves
 
     RayCounts samples() const;   // pixels that lack a half count as the mean of the others
     std::size_t missing() const; // pixels of the display window that stay as gathered
-    // The planes of a channel of the gathered picture, for both halves. Empty if a render lacks it. The caller takes
-    // them.
+    // Moves out the planes of a channel of the gathered picture, for both halves; empty if a render lacks it.
     std::array<Values, 2> take(std::size_t channel);
     bool has(std::size_t channel) const { return has_[channel]; }
 

@@ -5,11 +5,11 @@
 // The product of how the first and how the second residual differ from those of another frame holds no noise of the
 // renders: its mean is b^2, the square of how much the error has changed. Half of the mean squared difference of a
 // frame's two residuals is s^2, the noise of each. Least squares weigh each of n other frames by
-// s^2 / (s_other^2 + 2 n b^2) beside the frame itself: the mean of both residuals has half the noise, and the changes of
-// all frames add up if they are alike.
+// s^2 / (s_other^2 + 2 n b^2) beside the frame itself: the mean of both residuals has half the noise, and the changes
+// of all frames add up if they are alike.
 //
 // b^2 is averaged over pixels whose gathered pictures have changed alike, relative to the noise: single pixels
-// tell too little. Where the mean over a window is significantly larger, it counts.
+// tell too little. Where the mean over a window is significantly larger, it replaces this mean.
 //
 // Candidates are made of these means. The frame's own rays test them, so the picture stays right where something moves.
 //
@@ -32,8 +32,8 @@ struct FrameOfLayer {
     Halves rays;
 };
 
-// For each pixel, how much the residuals of `other`, one of `frames` around, count beside those of `frame`, whose weight
-// is 1: 0 to 1.
+// For each pixel, the weight of the residuals of `other`, one of `frames` frames around, 0 to 1; those of `frame` have
+// the weight 1.
 Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size_t frames, const Grid &grid);
 
 // The frame's gathered picture plus the weighted means of the residuals.

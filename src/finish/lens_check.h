@@ -36,9 +36,9 @@ LensMistakes check_lens(const LayerToFinish &layer);
 // left out.
 //
 // The renders differ by noise alone, which is independent from pixel to pixel: in a block, two nearby pixels are
-// brighter in the same render no more often than by chance. If they are, the renders are denoised, or differ in what
-// they show. Each
-// render's share of the squared difference is the difference times what the render has beyond the gathered picture.
+// brighter in the same render no more often than by chance. If they are more often, the renders are denoised, or differ
+// in what they show. Each render's share of the squared difference is the product of the difference and the render's
+// difference from the gathered picture.
 struct NoiseOfTwo {
     double equal =
         0; // the share of pixels, among those that differ from the pixel before, that are the same in both
@@ -52,10 +52,10 @@ struct NoiseOfTwo {
 NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> second,
                         std::span<const half> gathered, const Grid &grid);
 
-// Compares the lenses and cameras of a gathered picture and a render by their headers. The differences, in words: the
-// aperture's radius, its blades, their rotation, its squeeze, the focus distance, where the camera stands and looks, its
-// focal length and shift. Values that a header lacks are not compared.
-// Blades are compared if both headers name them, 0 for none.
+// Compares the lenses and cameras of a gathered picture and a render by their headers. Returns the differences in
+// words: of the aperture's radius, blades (0: none), rotation and squeeze, of the focus distance, of where the camera
+// stands and looks, and of its focal length and shift. Values that a header lacks are not compared, except that the
+// gathered picture then has a squeeze of 1, and blades have a rotation of 0.
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render);
 
 } // namespace sparselens

@@ -45,17 +45,17 @@ struct FinishTuning {
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
-    // Two renders have the same noise if this share of the pixels in which light varies is the same, or this share of
-    // those whose second difference along the row is at least `rough` of their value and twice that of the gathered
-    // picture, if they are that much of it. Good renders: .05 at most; with half of another render: .22 to .5.
+    // Two renders have the same noise if same_noise of the pixels in which light varies are the same, or same_excess of
+    // the peaks along rows whose second difference exceeds `rough` of their value and twice the gathered picture's, if
+    // these are least_excess of all pixels. Good renders: .05 at most; with half of another render: .22 to .5.
     static constexpr float rough = 1.0f / 64;
     static constexpr double same_noise = 0.9, same_excess = 0.2, least_excess = 0.02;
-    // Noise is alike if so many more directions than by chance agree at this distance, in pixels, which no filter of
-    // pixels reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised renders: .01 to .2, but
-    // for 140 rays, which a denoiser leaves as they are.
+    // Noise is alike if this share of pairs of pixels, beyond chance, are brighter in the same render, at this distance
+    // in pixels, which no filter reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised
+    // renders: .01 to .2, but for 140 rays, which a denoiser leaves as they are.
     static constexpr int noise_apart = 3;
     static constexpr double noise_alike = 0.01;
-    // Shares of the noise that differ by more are of noise that is the same but for a factor. Good renders: 1 at most.
+    // If the shares of the noise differ by more, one noise is a multiple of the other. Good renders: 1 at most.
     static constexpr double no_share = 4;
     // A render has too little noise if the median of blocks of this side finds less than this part of what its samples
     // tell.
@@ -78,13 +78,13 @@ struct FinishTuning {
     // The same for the optical axis, widths of the picture: a pixel of 1000.
     static constexpr double axis_difference = 0.001;
 
-    // Rays of each view beyond which rays through the lens are worth more (plan.h). With five views, 4, 8, 16 and 32 have, of
-    // 320 rays in all, 47.9, 48.7, 48.9, 48.7 dB on fence, 48.4, 48.6, 48.4, 48.1 on grass, 50.7, 51.6, 51.5, 51.2 on mirror.
+    // Rays of each view beyond which rays through the lens are worth more (plan/plan.h). Five views, 320 rays in all;
+    // 4, 8, 16, 32: fence 47.9, 48.7, 48.9, 48.7 dB; grass 48.4, 48.6, 48.4, 48.1; mirror 50.7, 51.6, 51.5, 51.2.
     static constexpr int rays_per_view = 8;
 
-    // Mean square, tone-mapped (49 dB): if all rays through the lens are predicted to have less noise, one render of them
-    // is better than a finished picture. Without a denoiser (lab/results/rivals.md), 320 rays on fence, grass, mirror and
-    // mist (predicted: 45.3, 47.7, 47.9, 61.7 dB) have 45.6, 49.5, 51.4, 73.2 dB in one render, finished 48.7, 48.6, 51.6,
+    // Mean square, tone-mapped (49 dB): if less noise is predicted for all rays through the lens, one render of them is
+    // better than a finished picture. Without a denoiser (lab/results/rivals.md), 320 rays on fence, grass, mirror and
+    // mist (predicted: 45.3, 47.7, 47.9, 61.7 dB): 45.6, 49.5, 51.4, 73.2 dB in one render, finished 48.7, 48.6, 51.6,
     // 71.5; 1280 rays (predicted: 51.3, 53.7, 53.9, 67.7) have 52.8, 56.3, 58.4, 79.7, finished 51.5, 55.2, 57.4, 78.3.
     static constexpr double noise_that_views_do_not_reach = 1.25e-5;
 
@@ -93,14 +93,14 @@ struct FinishTuning {
     // How much a change of residuals in a window must exceed what noise may show there, as a share of the noise: three
     // standard deviations of a mean of 250 pixels, as many as a soft window of radius 4 has.
     static constexpr float residual_deviations = 0.19f;
-    // Pixels are told apart by how much their gathered pictures have changed, relative to the noise, up to e to this power
-    // and its inverse.
+    // Pixels are told apart by how much their gathered pictures have changed, relative to the noise, up to e to this
+    // power and its inverse.
     static constexpr float log_of_movement = 14;
 
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;
-    // Side, in pixels, of the blocks that ask for rays; into how many rectangles a picture is cut at most; and the share
-    // of its cost that a cut must save.
+    // Side of the blocks that ask for rays, pixels; into how many rectangles a picture is cut at most; and the share of
+    // its cost that a cut must save.
     static constexpr int ask_block_px = 8;
     static constexpr std::size_t most_pieces = 16;
     static constexpr double least_saving = 1e-3;

@@ -131,9 +131,9 @@ struct ClassSums {
 };
 
 // The share of a candidate that is accepted in each class of cells, from the evidence of both renders in all its cells:
-// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961). All
-// shares are then drawn towards 0 by the variance of all classes together, because each class may believe a few bright
-// events by chance.
+// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961).
+// All shares are then drawn towards 0 by the variance of all classes together, because each class may believe a few
+// bright events by chance.
 Shares shares_of(std::vector<ClassSums> blocks);
 
 // Interpolates linearly between the middles of classes.

@@ -93,8 +93,8 @@ inline constexpr uint is_red = 1, is_green = 2, is_blue = 4, is_coverage = 8, is
 inline float of_colour(uint set, float red, float green, float blue, float others) {
     return set == is_red ? red : set == is_green ? green : set == is_blue ? blue : others;
 }
-// The weight of a lens point for a channel. `colour`: the factor of its colour. `side`: its factor on light from behind
-// focus, or from in front of it. Data has no colour and is the same for all light.
+// The weight of a lens point for a channel. `colour`: the factor of its colour, 1 for data. `side`: the factor on
+// light from behind focus, or from in front of it, which data ignores.
 inline float light_weight(uint set, float weight, float colour, float side) {
     return weight * colour * (set == is_data ? 1 : side);
 }

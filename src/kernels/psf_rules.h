@@ -41,9 +41,9 @@ inline Real area_between(Real radius, Real x0, Real y0, Real x1, Real y1) {
 }
 
 // Area between an arc of at most a quarter turn and its chord: r^2 (asin s - s sqrt(1 - s^2)), s = chord / 2r.
-// Its series in s is s^3 times one in s^2. The long one is interpolated at the Chebyshev nodes of s^2 in [0, 1/2]
-// (relative error 1e-9), the short one is Taylor's: pieces within a pixel are no longer than sqrt(2), so from a
-// radius of 2.5 on its error is below 3e-7.
+// It is s^3 times a series in s^2. The long polynomial interpolates that series at the Chebyshev nodes of s^2 in
+// [0, 1/2] (relative error 1e-9). The short one is its Taylor polynomial: pieces within a pixel are no longer than
+// sqrt(2), so from a radius of 2.5 on its error is below 3e-7.
 inline double segment_area(double radius, double chord_squared) {
     const double t = chord_squared / (4 * radius * radius);
     double sum = 5.0 / 72;
@@ -78,7 +78,7 @@ inline int end_within(double centre, double distance_, int low, int high) {
 }
 
 // The part of a row on one side of the centre's row: between `low` and `high` <= radius, where half the chord is
-// `outer` and `inner`. Columns are full of it from -inner to inner; from there the arc falls from (inner, high) to
+// `outer` and `inner`. It fills the columns from -inner to inner; beyond them the arc falls from (inner, high) to
 // (outer, low).
 struct Band {
     double low, high, outer, inner;

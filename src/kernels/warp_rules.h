@@ -100,9 +100,9 @@ inline void divide_mean(Mean &sum) {
     sum.covers /= sum.weights;
 }
 
-// The visibility vote (warp/coverage.h): what a sample covers of what is left of its pixel; the coverage by the
-// majority of the views; and half by majority, half by the mean of what they show, where the samples of the surface
-// cover `shown` of their own pixels on average.
+// The visibility vote (warp/coverage.h). `there`, `past`, `through`: the Votes. covers(): what a sample covers of what
+// is `left` of its pixel. coverage_by_votes(): half by the majority of the views, half by the mean of what they show;
+// `shown`: how much of their own pixels the samples of the surface cover on average.
 inline double covers(double alpha, double left) { return alpha < 0 ? 0.0 : left < alpha ? left : alpha; }
 inline double bounded_share(double share) { return share < 0 ? 0.0 : share > 1 ? 1.0 : share; }
 inline double coverage_by_majority(double there, double past, double through) {
@@ -129,7 +129,7 @@ struct PhotoBlock {
     double coc;                   // sum of |CoC|
     double pixels;
     // Sums over each sample of a rim view and each channel: of the difference, and of how the difference changes with
-    // the depth of the picture, which is the gradient along the direction in which the picture moves.
+    // the image depth, which is the gradient along the direction in which the image moves.
     double change2, change_difference, difference2, values;
 };
 
@@ -157,11 +157,11 @@ inline bool views_differ(PhotoBlock block) {
     return block.difference > least_ratio * block.variation + least_difference * block.pixels;
 }
 
-// Returns by how much another depth than the surface's would explain much of the difference, by linear regression, in
-// pixels of disparity; 0 if it would not.
+// Returns how far from the surface, in pixels of disparity, an image depth lies that explains much of the difference
+// between the views, by linear regression; 0 if no depth does.
 inline double explaining_motion(PhotoBlock block) {
     const double least_explained = 0.5; // share of the squared differences; noise alone gives a hundredth
-    const double least_change = 1e-5;   // mean square for each pixel of depth: nothing else tells
+    const double least_change = 1e-5;   // mean square for each pixel of depth; less tells nothing
     if (!(block.change2 > least_change * block.values)) return 0;
     const double moved = block.change_difference / block.change2, explained = moved * block.change_difference;
     return explained >= least_explained * block.difference2 ? abs(moved) : 0.0;

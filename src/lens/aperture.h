@@ -14,9 +14,8 @@
 
 namespace sparselens {
 
-// A picture of an aperture, prepared for lookups: how much of its light lies in any rectangle, and at which place a
-// given share of the light lies before it. It is cropped to its content. Places are those of ApertureShape, before
-// squeezing.
+// A picture of an aperture, prepared for lookups: how much of its light lies in a rectangle, and the place before which
+// a given share of its light lies. It is cropped to its content. Places are those of ApertureShape, before squeezing.
 
 // Light of R, G and B, and their mean.
 using LightOfColours = std::array<double, 4>;
@@ -51,12 +50,12 @@ private:
     std::vector<LightOfColours> sums_;
 };
 
-// Factors on the light of R, G and B; coverage has that of G.
+// Factors on the light of R, G and B.
 using ColourFactors = std::array<float, 3>;
 inline constexpr ColourFactors no_factors{1, 1, 1};
 
 // A point of the lens. Its light is weighted by rgb, times `behind` or `in_front` depending on where the light comes
-// from; the mean of each weight over the lens is 1. Coverage has no weight by rgb.
+// from; the mean of each weight over the lens is 1. Coverage has no weight by rgb, and the weight of G by side.
 struct LensPoint {
     Imath::V2d u;
     ColourFactors rgb = no_factors, behind = no_factors, in_front = no_factors;
@@ -90,8 +89,8 @@ public:
     // The table of an aperture picture, for light from behind focus or in front; null for other apertures.
     const PictureTable *picture(bool behind) const;
 
-    // The weight of a colour's light that comes from behind or in front, at a radius; the mean over the lens is 1. It is
-    // linear in the square of the radius.
+    // The weight of a colour's light from behind focus or in front, at a radius; the mean over the lens is 1. Up to a
+    // radius of 1 it is linear in the square of the radius.
     double weight(bool behind, double square_radius, std::size_t colour = 1) const;
 
 private:

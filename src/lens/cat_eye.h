@@ -1,4 +1,4 @@
-// The part of the aperture that a second circle leaves away from the optical axis (LensLooks::cat_eye).
+// The part of the aperture that a second circle leaves for pixels away from the optical axis (LensLooks::cat_eye).
 #pragma once
 
 #include "lens/aperture.h"

@@ -55,8 +55,8 @@ public:
     Imath::V2d shown_at(const Imath::V2d &p) const { return frame_.magnified(p, looks_.magnification); }
     bool moves() const { return looks_.magnification != 1; }
 
-    // The skew s, x right and y up: lens point u displaces a point seen at p by s u* more, with u* mirrored in x. So
-    // the CoC is |s| larger along a line through the axis (magnified with the picture), and |s| smaller across it.
+    // The skew s, x right and y up: lens point u displaces a point seen at p by skewed(s, u) more. So the CoC is |s|
+    // larger along a line through the axis (magnified with the picture), and |s| smaller across it.
     Imath::V2d skew(const Imath::V2d &p) const {
         const Imath::V2d q = frame_.place(p);
         return looks_.magnification * looks_.astigmatism * at_focus_ *
@@ -79,13 +79,13 @@ private:
     double focal_px_;
 };
 
-// Lens point u, mirrored in x, turned and scaled by s.
+// Lens point u, mirrored about the x axis, then turned and scaled by s: the product s u* of complex numbers.
 inline Imath::V2d skewed(const Imath::V2d &s, const Imath::V2d &u) {
     return {s.x * u.x + s.y * u.y, s.y * u.x - s.x * u.y};
 }
 
 // A lens point displaces samples by u for each pixel of CoC. A sample at p in the centre view, with the CoC c there, is
-// seen at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. The stretch stops growing at 1/10 of a fold.
+// seen at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. The stretch is limited to 10, because it has a pole.
 inline double stretch(const Imath::V2d &coc_gradient, const Imath::V2d &u) {
     return 1 / std::max(0.1, 1 - coc_gradient.dot(u));
 }

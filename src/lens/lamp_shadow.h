@@ -21,7 +21,7 @@
 
 namespace sparselens {
 
-// c and c' in pixels, signed and different. `scale`: c in the picture; when drawn elsewhere, the value of c there.
+// c and c' in pixels, signed and different. `scale`: the factor on (x' - x) / (c - c'); in the picture, c.
 template <typename Number>
 Number shadow_magnification(Number lamp_coc, Number coc, Number scale) {
     return scale / (lamp_coc - coc);
@@ -49,8 +49,8 @@ struct LampDisc {
 // column, so that an edge that crosses a pixel along an axis hides one point after the other.
 class LampShadow {
 public:
-    // Begins with nothing hidden. The box is relative to the origin of places. `fine`: its pixels are so small that a
-    // thing that hides a share of the light may hide that share evenly over a pixel.
+    // Begins with nothing hidden. Rectangles and pixels below have the origin of the box. `fine`: pixels are so small
+    // that a thing that hides a share of the light may hide that share evenly over a pixel.
     void begin(const Imath::Box2i &box, bool fine = false);
 
     // Adds the shadow of a thing that covers a rectangle and hides a share `alpha` of the light, (0, 1].

@@ -17,13 +17,12 @@ namespace sparselens {
 // The f-number's circle has the radius 1, x right and y up. Behind focus a lamp becomes an upright picture of the
 // aperture, in front of it a picture turned by 180 degrees:
 //
-//     3 blades, rotation 90:   behind  /\    in front  ____
+//     3 blades, rotation 30:   behind  /\    in front  ____
 //                                     /__\             \  /
 //                                                       \/
 //
 // As in Cycles, the middle of the first side lies at the angle `rotation`, counter-clockwise from +x as a lamp behind
-// focus shows it. The side's corners lie on the circle, half a side before and after the middle. (Three blades at 90
-// degrees have a side on top; the drawing is turned by 60.)
+// focus shows it. The side's corners lie on the circle, half a side before and after the middle.
 
 // Weights of the light that passes, row by row from the top: [row][column][R, G, B], at least 0 and finite. They are
 // squares in a grid whose middle lies on the optical axis and whose longer side is 2 long, from rim to rim.
@@ -46,10 +45,10 @@ struct ByColour {
 
 struct ApertureShape {
     int blades = 0;       // 0: round; otherwise a regular polygon of 3..16 corners
-    double curvature = 0; // of its sides, [0, 1]: their height over the chord; 1 gives the circle
+    double curvature = 0; // of its sides, [0, 1]: their height over the chord, 1: the circle's height
     double rotation = 0;  // degrees
     double squeeze = 1;   // (0, inf): how many times higher than wide; the height is the circle's
-    // Weight 1 + S (2 r^2 - 1) behind focus and 1 - S (2 r^2 - 1) in front, r before squeezing, with S limited to [-1, 1].
+    // Weight 1 + S (2 r^2 - 1) behind focus, 1 - S (2 r^2 - 1) in front; r is before squeezing, S limited to [-1, 1].
     ByColour spherical = 0;
     std::shared_ptr<const AperturePicture> picture = {}; // replaces the blades if set
 
@@ -93,8 +92,8 @@ inline double unit_focusing_magnification(double focal_length, double focus) {
     return 1 / (1 - focal_length / focus);
 }
 
-// The CoC in pixels of a colour that comes to focus `mm` farther behind the sensor: its cone is mm / (2 N) wide there.
-// The sign is that of things in front of focus.
+// The CoC in pixels of a colour that comes to focus `mm` behind the sensor: its cone has the radius mm / (2 N) on the
+// sensor. For mm above 0, the sign is that of things in front of focus.
 inline double defocus_coc(double mm, double fstop, double pixels_per_mm) {
     return -mm / (2 * fstop) * pixels_per_mm;
 }

@@ -17,7 +17,7 @@ struct OwnStep {
     double x, y; // pixels
 };
 
-// Steps for final quality, up to 32 pixels of CoC (dof/lens/lens_gather.cpp).
+// Steps for final quality, up to 32 pixels of CoC (dof/lens/tile_plan.h).
 constexpr std::array own_steps = std::to_array<OwnStep>({{288, 0.549027, 0.279015},
                                                          {384, 0.484515, 0.778827},
                                                          {480, 0.514910, 0.700320},

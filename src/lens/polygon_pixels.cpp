@@ -114,7 +114,7 @@ void integrate_over_pixels(std::span<const Imath::V2d> polygon, const RadialDens
     for (std::size_t i = 0; i < polygon.size(); ++i)
         sums.add_edge(polygon[i], polygon[(i + 1) % polygon.size()]);
     sums.finish();
-    // The right side of an edge is outside if the edge rises with y up; here y runs down.
+    // If signed_area() is above 0, the left edges run towards smaller y, which add_edge() counts as negative.
     if (signed_area(polygon) > 0)
         for (double &value : values) value = -value;
     for (double &value : values) value = std::max(value, 0.0);

@@ -38,7 +38,7 @@ double mean_square_radius(std::span<const Imath::V2d> polygon);
 // and enclose the same area. The shape must not be a picture.
 std::vector<Imath::V2d> aperture_outline(const ApertureShape &shape, double tolerance);
 
-// The part of a convex polygon (counter-clockwise) that lies within 1 of `centre`; empty if there is none.
+// The part of a convex polygon (counter-clockwise) that lies within 1 of `centre`, arcs as above; empty: there is none.
 std::vector<Imath::V2d> within_unit_circle(std::span<const Imath::V2d> polygon, const Imath::V2d &centre,
                                            double tolerance);
 

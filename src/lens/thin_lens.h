@@ -63,7 +63,7 @@ inline double inverse_depth_step(double scale, double disparity) { return dispar
 // R F d / (R F - s d). The second is infinite if s d >= R F. The nearest such focus distance, R F / s, is the
 // hyperfocal distance.
 struct SharpRange {
-    double near, far;  // depths, scene units, (0, inf]
+    double near, far;  // depths, scene units: [0, inf) and (0, inf]
     double hyperfocal; // focus distance, scene units, [0, inf)
 };
 

@@ -102,7 +102,7 @@ struct Spherical {
 //
 // The coefficient S of the weights (lens/lens_looks.h) is that of the spherical aberration for green, S - K for red
 // and S + K for blue, K in [-1, 1]. Each is limited to [-1, 1], and the mean of each colour's weights stays 1. With K
-// above 0, a disc behind focus has a blue rim and a reddish core, and a disc in front of it a red rim and a bluish core.
+// above 0, a disc behind focus has a blue rim and a reddish core, and a disc in front a red rim and a bluish core.
 struct Spherochromatism {
     std::optional<double> spherochromatism = {};
 

@@ -39,7 +39,7 @@ struct Astigmatism {
     void act(const LookContext &, LensLooks &looks) const { looks.astigmatism = astigmatism.value_or(0); }
 };
 
-// A plane of focus that is tilted, by two angles (lens/focus_field.h). They are one pair on a command line, so that they
+// A plane of focus that is tilted, by two angles (lens/focus_field.h). A command line takes them as one pair, so they
 // have no row here.
 struct Tilt {
     std::optional<double> tilt_x = {}, tilt_y = {}; // degrees, within -89 and 89

@@ -1,4 +1,4 @@
-// Numbers that a user may give, as options, keywords and, for looks, keys of a lens file. One table makes them all.
+// The looks of a lens: what a row of their table (table.h) says, and what a look does to the lens.
 #pragma once
 
 #include "../lens/lens_looks.h"
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// Numbers that a user may give, as options, keywords and, for looks, keys of a lens file. One table makes them all.
+// The numbers that a user may give for a parameter: in words, for messages, and as a test.
 struct NumberRange {
     const char *words;
     bool (*holds)(double);
@@ -36,8 +36,8 @@ struct NumberParameter {
     NumberRange range;
 };
 
-// A look of the lens: a number as a user gives it, with its name, unit, range, help and slider, and what it does to the
-// lens. Each look has a struct in a file of its own, which table.h lists:
+// A look of the lens: its numbers as a user gives them, with name, unit, range, help and slider, and what they do to
+// the lens. Each look has a struct, which table.h lists:
 //
 //     struct NAME {
 //         std::optional<double> name = {};                          // missing: the lens has none of it

@@ -1,6 +1,6 @@
 // A device, such as a GPU (gpu/gather/gather_device.h), that gathers tiles of a picture in place of the CPU. The lens
 // gather prepares samples, fillers and lens points in the same way for both, and the selective gather prepares its
-// splats. Each gather does itself the tiles that the device leaves.
+// splats. The CPU gathers the tiles that the device leaves.
 #pragma once
 
 #include "base/progress.h"

@@ -109,7 +109,7 @@ LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
 }
 
 // Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
-// 0. None if the surface goes on level, so that what has the expected depth is a layer behind it.
+// 0. Both are 0 if the surface goes on level, because what has the expected depth is then a layer behind it.
 Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
                                  float expected) const {
     Steps steps{0, 0};

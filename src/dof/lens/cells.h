@@ -3,9 +3,9 @@
 // Far out of focus, a lens leaves no detail as fine as a pixel. If everything that can reach a tile has a CoC of many
 // pixels, and no empty background shows, the tile is gathered in cells of 4 x 4 or 8 x 8 pixels, from a small scene
 // (gather_scene.h). A cell is the mean of its pixels. Pixels are interpolated from cells along rows, and then along
-// columns: a pixel is the mean there of the cubic polynomial that has the means of the four cells around it, limited to
-// the range of these means. The limit applies to each channel alone, so it is left out where sums of channels must be
-// kept.
+// columns: a pixel is the mean, over its extent, of the cubic polynomial whose means over the four cells around it are
+// those of the cells, limited to their range. The limit applies to each channel alone, so it is left out where sums of
+// channels must be kept.
 #pragma once
 
 #include "dof/device/tile_device.h"

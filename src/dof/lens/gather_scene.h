@@ -107,7 +107,7 @@ struct GatherScene {
 };
 
 // `coc` is added to the CoC of all samples. Of the options, it uses the looks, the lens point, the holdout, and which
-// pixels are known and were seen. The progress may end it between its steps.
+// pixels are known and were seen. `progress` may end the work between its steps.
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, double coc = 0, const Progress &progress = {});
 

@@ -96,8 +96,8 @@ struct Highlights {
 // the level at a sample is that of the darkest window. A sample is a highlight if the brightest of its channels
 // (light_channels()) is more than four times this level. So at most a fifth are highlights, which bounds the cost.
 // Volumes are no highlights and do not count. A window counts the samples in `seen` (pixels relative to the data
-// window's corner), and pixels beyond that let light through, because what else lies beyond is made up; if it has none
-// of these, it counts all its samples. A made-up sample must stand out of all samples of its windows, too, so that at
+// window's corner) and beyond it only backgrounds, because all else there is made up; if it has none of these, it
+// counts all its samples. A made-up sample must stand out of all samples of its windows, too, so that at
 // most a fifth of these are highlights. From six times the level on, a sample spreads all light that stands out; below,
 // less and less, so that nothing pops where a lamp is hardly one. A sample whose disc would be too wide and too faint
 // to be seen (lamp_least_variance) is no highlight.

@@ -56,7 +56,7 @@ struct SampleBlock {
 struct BlockedSamples {
     // One entry per sample and per background. Backgrounds are opaque, and have no colour and no alpha. A pixel that
     // lets light through to infinity has a background there. If it has samples, it has another one at the position of
-    // its last sample, but behind everything else: a lens point that sees that sample sees through it, even if what
+    // its last sample, but behind everything else: a lens point that sees the last sample sees through it, even if what
     // lies behind it at infinity is not known.
     LargeArray<float> x, y; // centre, pixels, relative to the data window's corner, y down
     LargeArray<float> coc;  // signed radius, pixels
@@ -189,8 +189,8 @@ inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples)
     return colours;
 }
 
-// Channels that are light, without coverage; and the channels among them that say how bright a sample is: R, G and B, or
-// the Y of a grey picture.
+// Channels that are light, without coverage; and those of them that say how bright a sample is: R, G and B, or the Y of
+// a grey picture.
 struct LightChannels {
     std::vector<std::size_t> all, brightness;
 };

@@ -109,7 +109,7 @@ bool ShadowEdges::may_reach(const ShadowedLamp &group) const {
 namespace {
 
 constexpr float wide = lens_tile_size / 2;   // pixels of CoC, from which on a disc reaches several tiles
-constexpr std::size_t all_blocks = 2u << 20; // in all lists: 64 MB
+constexpr std::size_t all_blocks = 2u << 20; // in all lists: 64 MB, more with more than 32768 lists
 constexpr std::size_t longest_of_many = 64;  // blocks
 
 } // namespace

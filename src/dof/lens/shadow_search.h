@@ -1,6 +1,6 @@
 // Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
-// A sample hides a lamp only if it lies before the lamp, seen from some point of the lens. So the search compares bounds
+// A sample hides a lamp only if some point of the lens sees it in front of the lamp. So the search compares bounds
 // (block_footprints.h) by their distance from the lamp and by how far the lens moves them apart.
 #pragma once
 

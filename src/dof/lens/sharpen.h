@@ -2,8 +2,8 @@
 //
 // A sample is the mean over a pixel; seen at a fraction f of a pixel off the grid, it is shared between two pixels,
 // which blurs as interpolation does: along an axis a wave of frequency w keeps 1 - f (1 - f) (1 - cos w) of its
-// square-mean amplitude. The mean of this factor over the lens is known from a sample's CoC and position, and
-// subtracting as much of its second difference restores it to first order. Samples far out of focus are left alone, and
+// square-mean amplitude. The mean of f (1 - f) over the lens is known from a sample's CoC and position; subtracting
+// half of it times the second difference restores the wave to first order. Samples far out of focus are left alone, and
 // so is detail that does not stand out of the noise around it.
 #pragma once
 

@@ -118,7 +118,7 @@ struct PlannedTile {
     std::span<const LensSample> lens = {};
     const GatherScene *scene = nullptr;  // that it is gathered from
     std::optional<TileCells> cells = {}; // set if the scene is a coarse one
-    // A coarse scene whose samples cast shadows on lamps far behind them, in cells of so many pixels; null: there is none
+    // A coarse scene, in cells of `caster_cells` pixels, that casts the shadows on lamps far behind it; null: none
     const GatherScene *caster_scene = nullptr;
     int caster_cells = 1;
     TileBlocks cell_blocks = {}; // the blocks of the coarse scene

@@ -122,7 +122,7 @@ void VisibilityPass::see_facets(const LensSample &point) {
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
 }
 
-// Solids hide what lies behind them (sample_blocks.h).
+// Solids hide what lies behind them (fillers.h).
 void VisibilityPass::see_solids(const LensSample &point) {
     if (tile_.solids.empty()) return;
     const BlockedSamples &solids = scene_.solids;

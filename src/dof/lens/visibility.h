@@ -1,8 +1,8 @@
 // Finds what one point of the lens sees of a tile.
 //
 // Through a lens point, each sample is a square one pixel wide and high, moved by its circle of confusion, and the
-// nearest opaque sample hides what is behind it. lens_gather_reference.h does the same slowly, and says what cracks and
-// fillers are.
+// nearest opaque sample hides what is behind it. lab/reference/lens_gather_reference.h does the same slowly, and says
+// what cracks and fillers are.
 #pragma once
 
 #include "dof/device/tile_device.h"

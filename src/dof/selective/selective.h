@@ -1,6 +1,6 @@
 // The selective gather: each destination pixel gathers the samples whose PSF covers it, clusters them into a few layers
 // by disparity and blends these front to back (splats.h states the rule). Tiles make it fast: a tile visits only
-// the blocks of samples that can reach it (splats.h). scatter.h is its slow reference.
+// the blocks of samples that can reach it. lab/methods/scatter.h is its slow reference.
 #pragma once
 
 #include "base/image.h"

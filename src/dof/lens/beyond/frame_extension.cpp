@@ -174,7 +174,7 @@ private:
             if (is_one_surface(depth(i), there)) most = std::max(most, brightness(i));
         return most;
     }
-    // How far a disc reaches of which a sample, n pixels beyond the border, shows a part.
+    // A sample n pixels beyond the border shows a part of a disc. Returns how far beyond the sample the disc reaches.
     float extent(const FrameSide &side, int at, int n, std::uint64_t sample, float level) const {
         const double there = depth(sample);
         const auto light = [&](int i, int row) {
