@@ -15,8 +15,7 @@
 // right, above or below; else its own. Partial samples are simply displaced by the CoC of their images.
 //
 // Behind a sample with Ldi::solid s there is an opaque solid at 1 / z - s. A lens point that meets something opaque
-// farther than 1 / z - 2 s sees the solid instead, if the solid covers the point. sample_blocks.h says what the solid
-// shows.
+// farther than 1 / z - 2 s sees the solid instead, if the solid covers the point. fillers.h says what the solid shows.
 //
 // If a lens point meets nothing opaque in a pixel, it looks at the neighbouring pixels, to the left and to the right,
 // above and below, and in the corners:

@@ -45,7 +45,6 @@ void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes
 // Channels by their names: which are of one layer, and how other programs spell colours. Nuke writes red, green, blue
 // and alpha, also in layers (beauty.red); other programs write r, g, b and a. In this code they are always R, G, B and
 // A. Files keep their own names (io/exr/exr_common.h).
-struct Channel;
 
 // Returns R for red, RED and r, and beauty.G for beauty.green. Returns every other name unchanged.
 std::string colour_name(std::string_view name);

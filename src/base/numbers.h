@@ -39,6 +39,9 @@ inline Imath::V2d low_discrepancy_2d(std::uint32_t index, const Imath::V2d &shif
     return p;
 }
 
+// a / b, rounded down, also below 0; b > 0.
+constexpr int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
 // The median of at least one value; for an even number, the upper one of the two in the middle. Reorders them.
 template <std::ranges::random_access_range Values>
 auto median(Values &&values) {

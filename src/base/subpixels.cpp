@@ -1,6 +1,7 @@
 #include "base/subpixels.h"
 
 #include "base/matte.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
 
 #include <fmt/format.h>
@@ -16,9 +17,6 @@
 namespace sparselens {
 
 namespace {
-
-// Rounded down, also below zero; b > 0.
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 // Sub-pixels side by side, and the share of each in a pixel; the shares add up to 1.
 struct Run {

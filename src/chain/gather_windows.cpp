@@ -243,11 +243,11 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Notify &notify, const
         if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);
         return opened;
     };
-    last_ = &kept_.get({path, recolor, request.channels, request.depth, lens.focal_length_mm,
-                        lens.sensor_width_mm, colour.config, colour.input_space},
-                       read);
-    if (last_->depth != DepthMeaning::disparity) last_->camera = read_camera(last_->header);
-    return *last_;
+    OpenedLdi &opened = kept_.get({path, recolor, request.channels, request.depth, lens.focal_length_mm,
+                                   lens.sensor_width_mm, colour.config, colour.input_space},
+                                  read);
+    if (opened.depth != DepthMeaning::disparity) opened.camera = read_camera(opened.header);
+    return opened;
 }
 
 } // namespace sparselens

@@ -100,8 +100,7 @@ public:
     // without `lens`. Earlier results become invalid.
     OpenedLdi &load(const LdiRequest &request, const Notify &notify, const ChooseSamples &choose = {});
 
-    // The result of the last load(), whether it read the file, and which of its channels were left out.
-    const OpenedLdi &last() const { return *last_; }
+    // Whether the last load() read the file, and which of its channels were left out.
     bool read_now() const { return read_now_; }
     const std::vector<std::string> &channels_left_out() const { return channels_left_out_; }
 
@@ -110,7 +109,6 @@ private:
     using Key = std::tuple<std::string, std::string, std::string, DepthOptions, std::optional<double>,
                            std::optional<double>, std::string, std::string>;
     Kept<Key, OpenedLdi> kept_{1};
-    OpenedLdi *last_ = nullptr;
     bool read_now_ = false;
     std::vector<std::string> channels_left_out_;
     Flicker flicker_;

@@ -177,8 +177,6 @@ ParameterRows<ColourOptions> output_colour_parameters() {
     return rows;
 }
 
-using namespace parameter_rows;
-
 ParameterRows<WindowOptions> window_parameters() {
     const Parameter filter =
         text("pixel-filter", "box|blackman-harris|gaussian[:WIDTH]",
@@ -336,8 +334,6 @@ ParameterRows<PictureRequest> shown_parameters() {
     static const auto rows = shown_rows();
     return rows;
 }
-
-using namespace parameter_rows;
 
 namespace {
 

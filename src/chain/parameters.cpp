@@ -78,7 +78,7 @@ bool read_numbers(const std::string &text, std::span<double> numbers) {
     const char *at = text.data(), *const end = at + text.size();
     for (double &number : numbers) {
         if (&number != &numbers.front() && (at == end || *at++ != ',')) return false;
-        if (at != end && *at == '+') ++at;
+        if (at != end && *at == '+' && at[1] != '-') ++at;
         const auto [after, error] = std::from_chars(at, end, number);
         if (error != std::errc()) return false;
         at = after;

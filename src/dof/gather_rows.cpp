@@ -22,8 +22,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int rows_at_once = 16,
-              highlight_rows = 32; // the cells of highlights.cpp, the noise blocks of sharpen.cpp
+constexpr int rows_at_once = 16, cell = GatherTuning::cell_px;
 
 // Extremes of the samples of some rows, or of all.
 struct Extremes {
@@ -98,8 +97,8 @@ int border_rows(const PictureOptions &options) {
 // cells. `border`: this many rows at the top, and at the bottom, are all needed if any of them is.
 Band needed(const Band &band, const RowReach &reach, const Imath::Box2i &data, int border) {
     const int first = band.first - reach.seen - data.min.y, last = band.last + reach.seen - data.min.y;
-    const int whole = pieces_of(last + 1, highlight_rows) * highlight_rows;
-    const int from = (first < 0 ? 0 : first / highlight_rows * highlight_rows) - reach.prepared;
+    const int whole = pieces_of(last + 1, cell) * cell;
+    const int from = (first < 0 ? 0 : first / cell * cell) - reach.prepared;
     const int top = data.min.y + std::max(from, 0), bottom = data.min.y + whole - 1 + reach.prepared;
     return {bottom >= data.max.y ? std::min(top, std::max(data.max.y - border, data.min.y)) : top,
             std::min(from <= 0 ? std::max(bottom, data.min.y + border) : bottom, data.max.y)};
@@ -117,7 +116,7 @@ public:
 
     // The height of the bands, in rows.
     int height(const BandLimits &limits) const {
-        const int least = limits.low ? lens_tile_size : 2 * (reach_.seen + reach_.prepared) + highlight_rows;
+        const int least = limits.low ? lens_tile_size : 2 * (reach_.seen + reach_.prepared) + cell;
         const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, lens_tile_size);
         for (int parts = 1;; ++parts) {
             const int height = pieces_of(tile_rows, parts) * lens_tile_size,
@@ -221,7 +220,7 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     // The continuation beyond the left and the right of the frame (frame_extension.h) looks at as many rows of the
     // picture as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
-            (2 + across) * highlight_rows + BlockedSamples::size};
+            (2 + across) * cell + BlockedSamples::size};
 }
 
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,

@@ -18,8 +18,8 @@ struct GatherTuning {
     static constexpr float lamp_wholly = 6;
     // The square of brightness over surroundings, for each pixel of the disc. From twice this on, a sample is wholly a
     // lamp; up to it, it is none: its disc cannot be seen, and it adds a thousandth of its surroundings' square to the
-    // variance of lens points. Grass with dew, discs of 30000 sub-pixels: a third of the time and .03 dB; with .01, two
-    // fifths and .9 dB.
+    // variance of lens points. Grass with dew, discs of 30000 sub-pixels: this saves a third of the time and
+    // loses .03 dB; .01 saves two fifths and loses .9 dB.
     static constexpr float lamp_least_variance = 1e-3f;
     // Share of the samples around that are as bright. Up to this share, a sample can be a lamp.
     static constexpr double lamp_rare = 0.15;
@@ -78,6 +78,10 @@ struct GatherTuning {
     // Cells of disparity. Samples of a cell that no lens point moves farther apart become one surface there.
     // Samples that stay apart would cover a part of their cell, which costs more time.
     static constexpr float one_cell = 0.5f;
+
+    // The width and height, in pixels, of the cells in which lamps, brightness and noise are found. Bands of rows begin
+    // and end with whole cells (gather_rows.cpp), so that a band has the cells of the whole picture.
+    static constexpr int cell_px = 32;
 
     // What no view saw (lens/fillers.h). How far a mixed colour may lie from the line between the two colours, as a
     // share of their contrast (unmix()).

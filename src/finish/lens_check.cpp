@@ -3,6 +3,7 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "finish/tuning.h"
+#include "lens/thin_lens.h"
 
 #include <fmt/format.h>
 
@@ -270,7 +271,7 @@ bool differ(double a, double b) {
 // The radius of the aperture, mm.
 std::optional<double> radius_of(const Camera &camera) {
     if (!camera.focal_length_mm || !camera.fstop) return {};
-    return *camera.focal_length_mm / (2 * *camera.fstop);
+    return sparselens::radius_of(*camera.fstop, *camera.focal_length_mm, 1e-3);
 }
 
 std::optional<double> focus_metres(const Camera &camera) {

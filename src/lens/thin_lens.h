@@ -84,7 +84,7 @@ struct FocusFor {
 };
 
 inline FocusFor focus_for(double near, double far) {
-    const double ratio = near / far; // 0 if the range goes on to infinity
+    const double ratio = std::isinf(far) ? 0 : near / far;
     return {2 * near / (1 + ratio), 2 * near / (1 - ratio)};
 }
 

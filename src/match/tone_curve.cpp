@@ -158,7 +158,8 @@ std::vector<float> likeness(const Rgb &plate, std::span<const std::uint8_t> usab
         errors[t] = pixels > 0 ? errors[t] / pixels : std::numeric_limits<double>::infinity();
     }
     std::vector<double> known;
-    std::ranges::copy_if(errors, std::back_inserter(known), [](double error) { return std::isfinite(error); });
+    std::ranges::copy_if(errors, std::back_inserter(known),
+                         [](double error) { return std::isfinite(error); });
     const double alike = known.empty() ? 0 : MatchTuning::alike * median(known);
     std::vector<float> weights(usable.size());
     for (std::size_t t = 0; t < tiles.count(); ++t) {

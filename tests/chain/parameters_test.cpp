@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 namespace sparselens {
@@ -21,6 +22,14 @@ TEST(Parameters, HaveOneRowEach) {
     }
     EXPECT_EQ(find_parameter("no-such"), nullptr);
     EXPECT_EQ(find_parameter("lens_radius"), nullptr); // a keyword
+}
+
+TEST(Parameters, NumbersMayHaveOneSign) {
+    std::array<double, 2> numbers{};
+    EXPECT_TRUE(read_numbers("+1.5,-2", numbers));
+    EXPECT_EQ(numbers, (std::array<double, 2>{1.5, -2}));
+    for (const char *wrong : {"+-1,2", "++1,2", "--1,2", "+,2", "1", "1,2,3", "1,2 "})
+        EXPECT_FALSE(read_numbers(wrong, numbers)) << wrong;
 }
 
 TEST(Parameters, LooksHaveControls) {

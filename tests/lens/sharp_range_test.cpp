@@ -47,6 +47,8 @@ TEST(SharpRange, IsFoundFromItsEnds) {
     }
     EXPECT_DOUBLE_EQ(focus_for(3, 3).focus, 3);
     EXPECT_TRUE(std::isinf(focus_for(3, 3).hyperfocal));
+    EXPECT_TRUE(std::isinf(focus_for(HUGE_VAL, HUGE_VAL).focus)); // what lies at infinity alone
+    EXPECT_TRUE(std::isinf(focus_for(HUGE_VAL, HUGE_VAL).hyperfocal));
 }
 
 } // namespace

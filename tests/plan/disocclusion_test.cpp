@@ -44,7 +44,8 @@ TEST(Disocclusion, WhatOpensBesideACard) {
 // A card at the lens itself leaves the picture, whatever its disparity.
 TEST(Disocclusion, WhatIsAtTheLensLeavesThePicture) {
     for (const float near : {1e-3f, 1e-9f, 1e-30f})
-        for (const Imath::V2d &u : {Imath::V2d(1, 0), Imath::V2d(-1, 0), Imath::V2d(0, 1), Imath::V2d(0, -1)}) {
+        for (const Imath::V2d &u :
+             {Imath::V2d(1, 0), Imath::V2d(-1, 0), Imath::V2d(0, 1), Imath::V2d(0, -1)}) {
             const auto z = [&](int x, int y) { return x >= 20 && x < 30 && y >= 8 && y < 12 ? near : 10.0f; };
             EXPECT_TRUE(disoccluded(moved(z, u)).at(25, 10)) << near << u;
         }

@@ -14,9 +14,8 @@ dof/facets/facets.h size
 dof/facets/placed_facets.cpp at_once
 dof/footprints/interpolation_blur.cpp cocs n offsets
 dof/footprints/interpolation_blur.h largest_weight
-dof/gather_rows.cpp beside highlight_rows most rows_at_once
+dof/gather_rows.cpp beside most rows_at_once
 dof/border_reach.cpp rows_at_once
-dof/lens/beyond/frame_extension.cpp cell
 dof/lens/tile_plan.cpp blocks_in_run
 dof/lens/highlights.h cell octaves
 dof/lens/visibility.cpp half
@@ -36,7 +35,6 @@ dof/lens/tile_plan.h final_points largest_coc normal_points
 dof/lens/lens_gather.h lens_tile_size
 dof/lens/accumulator.h sides
 dof/lens/sample_blocks.h background size
-dof/lens/sharpen.cpp noise_block
 dof/lens/tile_projection.cpp rounding
 dof/methods.cpp ids_at_once
 dof/merge_layers.cpp pixels_at_once

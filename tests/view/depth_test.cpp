@@ -78,7 +78,8 @@ TEST(Depth, SkyIsWhatRenderersWriteForIt) {
         EXPECT_TRUE(is_sky(meaning, 1000, 1000)); // the far clip
         EXPECT_FALSE(is_sky(meaning, 999, 1000));
     }
-    for (const double near : {0.0, 1000.0, 65504.0, 1e10}) EXPECT_FALSE(is_sky(DepthMeaning::disparity, near, 1000));
+    for (const double near : {0.0, 1000.0, 65504.0, 1e10})
+        EXPECT_FALSE(is_sky(DepthMeaning::disparity, near, 1000));
     EXPECT_TRUE(is_sky(DepthMeaning::inverse, 0, 1e10));
     EXPECT_TRUE(is_sky(DepthMeaning::inverse, 1e-3, 1000));
     EXPECT_FALSE(is_sky(DepthMeaning::inverse, 2e-3, 1000));

@@ -201,8 +201,6 @@ template class Accumulator<UniformWeights>;
 template class Accumulator<ChannelWeights<1>>;
 template class Accumulator<ChannelWeights<2>>;
 
-using namespace tile_cells;
-
 namespace {
 
 void add(double *to, Float4 values) {

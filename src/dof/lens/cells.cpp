@@ -15,9 +15,6 @@ constexpr int size = lens_tile_size;
 constexpr std::size_t pixels = std::size_t(size * size);
 constexpr int beside = 2; // cells on either side of a pixel that it is interpolated from, at most
 
-// a / b, rounded down; b > 0.
-int floor_of(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
 // The cells of a row or a column that a pixel is interpolated from, and their weights.
 struct InterpolationWeights {
     std::size_t first, nearest; // cells of the tile
@@ -46,7 +43,7 @@ std::array<InterpolationWeights, size> taps_of(int first_pixel, int first_cell, 
     for (int n = 0; n < size; ++n) {
         // In cells from the middle of cell 0, times 2 across.
         const int twice = 2 * (first_pixel + n) + 1 - across;
-        const int cell = floor_of(twice, 2 * across);
+        const int cell = floor_div(twice, 2 * across);
         const double middle = double(twice - cell * 2 * across) / (2 * across), half = 0.5 / across;
         const auto own = std::size_t(cell - first_cell);
         taps[std::size_t(n)] = {own - 1, own + (middle < 0.5 ? 0 : 1),
@@ -131,7 +128,7 @@ int cell_size_for(float least_coc, Quality quality) {
 int TileCells::count() const { return size / across + 2 * beside; }
 
 TileCells cells_of_tile(const Imath::V2i &first_pixel, int across) {
-    const auto first = [&](int pixel) { return floor_of(2 * pixel + 1 - across, 2 * across) - 1; };
+    const auto first = [&](int pixel) { return floor_div(2 * pixel + 1 - across, 2 * across) - 1; };
     return {across, first_pixel, {first(first_pixel.x), first(first_pixel.y)}};
 }
 

@@ -290,7 +290,8 @@ HighlightGroups::HighlightGroups(const PlacedHighlights &highlights) {
 
 namespace {
 
-constexpr double cell_px = BrightShare::cell * BlockedSamples::size;
+constexpr double cell_px = GatherTuning::cell_px;
+static_assert(BrightShare::cell * BlockedSamples::size == GatherTuning::cell_px);
 constexpr double reach = cell_px; // as far as bands of rows let highlights look (gather_rows.cpp)
 constexpr double half = GatherTuning::lamp_octave;
 

@@ -177,7 +177,7 @@ BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, Al
 }
 
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
-    if (ldi.samples() + ldi.windows.pixels() >= BlockedSamples::background)
+    if (ldi.samples() + 2 * ldi.windows.pixels() >= BlockedSamples::background) // see count_samples()
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
     const std::size_t alpha = ldi.alpha();
     const auto count = [&](int x, int y) { return count_samples(ldi, known, x, y, alpha); };

@@ -13,7 +13,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int noise_block = 32; // pixels, wide and high, of a block with one noise level
+constexpr int noise_block = GatherTuning::cell_px; // which has one noise level
 
 class Sharpener {
 public:

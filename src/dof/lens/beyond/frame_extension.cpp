@@ -21,7 +21,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int cell = 32; // pixels: of highlights.cpp, in whole blocks
+constexpr int cell = GatherTuning::cell_px;
 constexpr double sky = std::numeric_limits<double>::infinity();
 
 // How far a disc reaches beyond a line that cuts it over a length of `width`, if it is `inner` wide at a distance of
