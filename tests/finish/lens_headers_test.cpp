@@ -35,11 +35,11 @@ TEST(LensHeaders, NothingIsSaidOfTheSameLens) {
 
 TEST(LensHeaders, EachMistakeIsNamed) {
     Camera wide = camera(), near = camera(), hexagon = camera(), squeezed = camera();
-    wide.fstop = 2 / 1.05;
+    wide.fstop = 2 / 1.06;
     near.focus_distance = 4 * 0.97;
     hexagon.looks.blades = 6;
     squeezed.looks.squeeze = 2;
-    EXPECT_EQ(lens_differences(camera(), wide), Texts{"an aperture of 13.12 mm radius, not 12.5"});
+    EXPECT_EQ(lens_differences(camera(), wide), Texts{"an aperture of 13.25 mm radius, not 12.5"});
     EXPECT_EQ(lens_differences(camera(), near), Texts{"focus at 3.88 m, not 4"});
     EXPECT_EQ(lens_differences(camera(), hexagon), Texts{"6 blades, not no blades"});
     EXPECT_EQ(lens_differences(hexagon, camera()), Texts{"no blades, not 6 blades"});
