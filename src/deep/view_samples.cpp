@@ -194,6 +194,14 @@ void ViewSamples::forget_colours() {
         }
 }
 
+void ViewSamples::forget() {
+    planes_.clear();
+    z_ = {};
+    moved_ = {};
+    words_ = {};
+    replaced_ = {};
+}
+
 Ldi ViewSamples::rows(std::size_t first, std::size_t end) const {
     Ldi ldi = empty();
     ldi.windows.data.min.y += int(first);

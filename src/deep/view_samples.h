@@ -97,6 +97,8 @@ public:
 
     // Frees all channels except A.
     void forget_colours();
+    // Frees all samples; the windows stay.
+    void forget();
 
     // The number of samples in rows [first, end), counted from the top.
     std::uint64_t count(std::size_t first, std::size_t end) const;

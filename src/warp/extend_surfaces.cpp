@@ -66,11 +66,13 @@ std::optional<float> Sights::OfPixels::at(const Imath::V2d &place) const {
     return display.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
 }
 
-Sights::Sights(std::span<const PlacedView> views, double scale_)
+Sights::Sights(std::span<const PlacedView> views, double scale_,
+               const std::function<void(std::size_t view)> &forget)
     : scale(scale_), frame(views.front().samples->windows.data) {
     for (const auto &[samples, mapping] : views) {
         const Grid grid(samples->windows.data);
         std::vector<float> farthest = farthest_in(*samples);
+        forget(farthest_.size());
         farthest_.push_back(
             {mapping,
              {samples->windows.display, grid, least_around(farthest, grid, WarpTuning::sight_margin)}});
@@ -212,41 +214,49 @@ std::vector<Hidden> find_hidden(const Sights &sights, const Ldi &ldi) {
     return hidden;
 }
 
-// A sample that is added.
+// A sample that is added to a pixel.
 struct Added {
-    std::size_t pixel;
     double depth;            // disparity
     std::vector<Term> terms; // their coefficients are weights
-    auto order() const { return std::pair(pixel, -depth); }
 };
 
-// The samples of all runs, in the order that samples have.
-std::vector<Added> samples_of(std::vector<Hidden> all) {
-    std::ranges::sort(all, {}, &Hidden::order);
+// The samples of all runs that continue into one pixel, front to back.
+std::vector<Added> samples_of(std::span<const Hidden> of_pixel) {
     std::vector<Added> added;
-    for (const Hidden &hidden : all) {
-        auto same = added.end();
-        for (auto a = added.end(); a != added.begin() && std::prev(a)->pixel == hidden.pixel; --a)
-            if (std::abs(std::prev(a)->depth - hidden.depth) <= double(torn_px)) same = std::prev(a);
-        if (same == added.end()) same = added.insert(same, {hidden.pixel, hidden.depth, {}});
+    for (const Hidden &hidden : of_pixel) {
+        const auto is_same = [&](const Added &a) {
+            return std::abs(a.depth - hidden.depth) <= double(torn_px);
+        };
+        auto same = std::ranges::find_if(added, is_same);
+        if (same == added.end()) same = added.insert(same, {hidden.depth, {}});
         for (const std::uint64_t i : hidden.shown) same->terms.push_back({i, 1.0 / hidden.distance});
     }
-    std::ranges::sort(added, {}, &Added::order);
+    std::ranges::sort(added, std::ranges::greater(), &Added::depth);
     return added;
 }
 
-void add(std::vector<Added> all, double scale, Ldi &ldi) {
+void add(std::vector<Hidden> all, double scale, Ldi &ldi) {
+    std::ranges::sort(all, {}, &Hidden::order);
     Ldi added = empty_like(ldi);
+    added.begin.reserve(ldi.begin.size());
     added.begin.assign(1, 0);
     const std::size_t alpha = ldi.alpha();
-    for (Added &one : all) {
-        const float z = float(depth_at_disparity(scale, one.depth));
-        double weights = 0;
-        for (const Term &term : one.terms) weights += term.coefficient;
-        for (Term &term : one.terms) term.coefficient /= weights * double(alpha_at(ldi, alpha, term.index));
-        added.begin.resize(one.pixel + 2, added.begin.back());
-        append(added, ldi, MergedSample{z, z, 0, 0, 1, z, 0, one.terms});
+    for (auto first = all.begin(); first != all.end();) {
+        const std::size_t pixel = first->pixel;
+        const auto end =
+            std::ranges::find_if(first, all.end(), [&](const Hidden &h) { return h.pixel != pixel; });
+        added.begin.resize(pixel + 2, added.begin.back());
+        for (Added &one : samples_of({first, end})) {
+            const float z = float(depth_at_disparity(scale, one.depth));
+            double weights = 0;
+            for (const Term &term : one.terms) weights += term.coefficient;
+            for (Term &term : one.terms)
+                term.coefficient /= weights * double(alpha_at(ldi, alpha, term.index));
+            append(added, ldi, MergedSample{z, z, 0, 0, 1, z, 0, one.terms});
+        }
+        first = end;
     }
+    all = {};
     added.begin.resize(ldi.begin.size(), added.begin.back());
     insert_samples(ldi, added);
 }
@@ -255,8 +265,7 @@ void add(std::vector<Added> all, double scale, Ldi &ldi) {
 
 void extend_surfaces(Sights &&sights, Ldi &ldi) {
     const double scale = sights.scale;
-    std::vector<Hidden> hidden = find_hidden(Sights(std::move(sights)), ldi);
-    add(samples_of(std::move(hidden)), scale, ldi);
+    add(find_hidden(Sights(std::move(sights)), ldi), scale, ldi);
 }
 
 void find_solids(const Sights &sights, Ldi &ldi) {

@@ -9,6 +9,8 @@
 
 #include <Imath/ImathVec.h>
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -19,7 +21,9 @@ namespace sparselens {
 // How far views saw, the centre view first. `scale`: R F, above 0.
 class Sights {
 public:
-    Sights(std::span<const PlacedView> views, double scale);
+    // Calls forget(view) when the samples of a view are no longer needed.
+    Sights(std::span<const PlacedView> views, double scale,
+           const std::function<void(std::size_t view)> &forget);
 
     // Whether no view saw through what has this disparity at a place of the centre view: each that looks there shows
     // something in front of it, nearer by this many pixels of disparity, in that pixel and in those around it, up to

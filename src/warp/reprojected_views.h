@@ -93,8 +93,9 @@ public:
         return s.source < mixed_[s.view].size() && !mixed_[s.view][s.source];
     }
 
-    // Frees colours that are no longer needed: see ViewSamples.
+    // Frees what is no longer needed: colours (see ViewSamples), or all samples of a view.
     void forget_colours();
+    void forget(std::size_t view);
 
     // The samples that fall into the rows [first_row, last_row] of the data window. Reuses the memory of rows that are
     // no longer needed.

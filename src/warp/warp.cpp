@@ -1,6 +1,7 @@
 #include "warp/warp.h"
 
 #include "base/matte.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/thin_lens.h"
@@ -184,7 +185,8 @@ Ldi Warper::run(Progress &progress) {
     if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     views_.forget_colours();
-    Sights sights(placed(), scale_);
+    Sights sights(placed(), scale_, [&](std::size_t view) { views_.forget(view); });
+    give_back_memory(); // of the views
     find_solids(sights, ldi);
     if (averages() && options_.extend_surfaces) extend_surfaces(std::move(sights), ldi);
     return ldi;

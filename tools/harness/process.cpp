@@ -154,12 +154,6 @@ void keep_freed_memory() {
 
 } // namespace
 
-void give_back_memory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
-
 std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory) {
     return max_memory.value_or(memory_of_machine() / 4);
 }

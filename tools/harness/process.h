@@ -35,9 +35,6 @@ private:
     std::unique_ptr<ThreadLimit> threads_;
 };
 
-// Returns freed memory to the system, before work that needs much.
-void give_back_memory();
-
 // The memory for frames held at the same time, in bytes: --max-memory, else a quarter of the machine's memory.
 std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory);
 

@@ -1,6 +1,7 @@
 #include "viewing/sequence.h"
 
 #include "base/matte.h"
+#include "base/memory.h"
 #include "chain/channels.h"
 #include "chain/notices.h"
 #include "chain/parameters.h"

@@ -302,10 +302,11 @@ BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedS
     const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
         const std::size_t pixel = pixel_at(ldi, x, y);
         for (const std::uint64_t i : ldi.pixel(pixel)) {
+            if (!(ldi.solid[i] > 0)) continue;
             const MergedSample s = sample_at(ldi, i);
             const double back = 1 / double(s.z) - double(s.solid),
                          hidden = 1 / double(s.z) - 2 * double(s.solid);
-            if (!(s.solid > 0 && hidden > 0)) continue;
+            if (!(hidden > 0)) continue;
             if (const auto shown = shown_by(pixel, i))
                 placed.push_back({float(x) + 0.5f + s.dx,
                                   float(y) + 0.5f + s.dy,
