@@ -3,8 +3,7 @@
 //
 // Units. Depth is planar, in scene units, in (0, inf]; inf is the sky. Positions of cameras are in scene units: x
 // right, y up, z forward. Places in a picture are EXR coordinates: pixels, x right, y down; a window includes its last
-// pixel.
-// Lengths in a picture, such as the radius of a circle of confusion, are in pixels.
+// pixel. Lengths in a picture, such as the radius of a circle of confusion, are in pixels.
 // Samples. LDIs are tidy, as open_ldi() and warp() return them (deep/tidy.h): the samples of a pixel are sorted by
 // depth and do not overlap. Colours are premultiplied and scene-linear.
 // Errors. Functions throw UsageError if an argument is missing or impossible, and Error if a file cannot be read or

@@ -1,4 +1,4 @@
-// Memory of the process.
+// The memory that the process holds.
 #pragma once
 
 #include <cstdlib>
@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// Returns freed memory to the system. Else it stays with the threads that allocated it, and other threads cannot use
-// it. To be called between steps that need much.
+// Returns freed memory to the system. Otherwise it stays with the threads that allocated it, and other threads cannot
+// use it. This is worth it between steps that need much memory.
 inline void give_back_memory() {
 #ifdef __GLIBC__
     malloc_trim(0);

@@ -38,7 +38,7 @@ void KeptDevice<Device>::with(const std::string &word, const Notify &notify, Pro
         notify({.kind = NoticeKind::on_device, .values = {name_}});
     else
         notify({NoticeKind::on_cpu});
-    if (device_) device_->take_report(); // of work that was cancelled
+    if (device_) device_->take_report(); // drops that of cancelled work
     work(device_.get());
     if (!device_) return;
     const DeviceReport did = device_->take_report();

@@ -7,8 +7,8 @@
 //
 // A surface goes on along rows and columns, from its last pixel, if something nearer hides it in the next pixel. A
 // surface that ends where nothing is nearer has an outer edge, and does not go on. Surfaces may go on into one pixel
-// from several sides. Those that are one surface there become one sample: their mean, in which each weighs 1 / n in the
-// n-th pixel after its end.
+// from several sides. If they have the same depth there, they become one sample, which is their mean. In the n-th pixel
+// after its end, a surface has the weight 1 / n.
 #pragma once
 
 #include "kernels/surface.h"

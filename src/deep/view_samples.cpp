@@ -185,15 +185,6 @@ void ViewSamples::replace(const std::function<bool(std::size_t pixel)> &changes,
     replaced_ = concatenate(like, std::move(rows));
 }
 
-void ViewSamples::forget_colours() {
-    const std::size_t kept = alpha();
-    for (std::size_t k = 0; k < planes_.size(); ++k)
-        if (k != kept) {
-            planes_[k] = {};
-            replaced_.values[k] = {};
-        }
-}
-
 void ViewSamples::forget() {
     planes_.clear();
     z_ = {};

@@ -95,8 +95,6 @@ public:
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-    // Frees all channels except A.
-    void forget_colours();
     // Frees all samples; the windows stay.
     void forget();
 

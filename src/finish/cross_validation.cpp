@@ -183,7 +183,7 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
 
 namespace {
 
-// What CellEvidence is the mean of, for a run of pixels.
+// The values of a run of pixels whose means over a cell are its CellEvidence.
 struct RunEvidence {
     std::array<Run, 3> energy{};
     std::array<Run, 2> confirmed{}, left{}, removed{};

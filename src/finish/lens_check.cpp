@@ -269,9 +269,9 @@ bool differ(double a, double b) {
 }
 
 // The radius of the aperture, mm.
-std::optional<double> radius_of(const Camera &camera) {
+std::optional<double> radius_mm(const Camera &camera) {
     if (!camera.focal_length_mm || !camera.fstop) return {};
-    return sparselens::radius_of(*camera.fstop, *camera.focal_length_mm, 1e-3);
+    return radius_of(*camera.fstop, *camera.focal_length_mm, 1e-3);
 }
 
 std::optional<double> focus_metres(const Camera &camera) {
@@ -297,7 +297,7 @@ bool differ(const Imath::M44d &a, const Imath::M44d &b) {
 
 std::vector<std::string> lens_differences(const Camera &gathered, const Camera &render) {
     std::vector<std::string> found;
-    const auto radius = radius_of(gathered), other_radius = radius_of(render);
+    const auto radius = radius_mm(gathered), other_radius = radius_mm(render);
     if (radius && other_radius && differ(*radius, *other_radius))
         found.push_back(fmt::format("an aperture of {:.4g} mm radius, not {:.4g}", *other_radius, *radius));
     const auto focus = focus_metres(gathered), other_focus = focus_metres(render);

@@ -45,14 +45,15 @@ struct FinishTuning {
     // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
-    // Two renders have the same noise if same_noise of the pixels in which light varies are the same, or same_excess of
-    // the peaks along rows whose second difference exceeds `rough` of their value and twice the gathered picture's, if
-    // these are least_excess of all pixels. Good renders: .05 at most; with half of another render: .22 to .5.
+    // Two renders have the same noise if they are equal in this share of the pixels in which light varies (same_noise),
+    // or of the peaks (same_excess). A peak's second difference along its row is more than `rough` of its value and
+    // twice that of the gathered picture. Peaks must be this share of all pixels (least_excess). Equal peaks of good
+    // renders: .05 at most; with half of another render: .22 to .5.
     static constexpr float rough = 1.0f / 64;
     static constexpr double same_noise = 0.9, same_excess = 0.2, least_excess = 0.02;
-    // Noise is alike if this share of pairs of pixels, beyond chance, are brighter in the same render, at this distance
-    // in pixels, which no filter reaches. Good renders: .005 at most; medians of 5 x 5 pixels: .02 to .1; denoised
-    // renders: .01 to .2, but for 140 rays, which a denoiser leaves as they are.
+    // Noise is alike if, beyond chance, this share of pairs of pixels are brighter in the same render. The pixels of a
+    // pair are this far apart, farther than filters of pixels reach. Good renders: .005 at most; medians of 5 x 5
+    // pixels: .02 to .1; denoised renders: .01 to .2, but for 140 rays, which a denoiser leaves as they are.
     static constexpr int noise_apart = 3;
     static constexpr double noise_alike = 0.01;
     // If the shares of the noise differ by more, one noise is a multiple of the other. Good renders: 1 at most.

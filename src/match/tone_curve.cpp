@@ -146,7 +146,7 @@ Rgb with_curves(Rgb shown, const Points &points) {
 // The weight of each pixel: small in blocks that are farther from the plate than most blocks, 0 if it is not usable.
 std::vector<float> likeness(const Rgb &plate, std::span<const std::uint8_t> usable, const Rgb &shown) {
     const Tiles tiles(plate.grid.box(), MatchTuning::compared_block_px);
-    std::vector<double> errors(tiles.count());
+    std::vector<double> errors(tiles.count()), known; // `known`: of blocks with usable pixels
     for (std::size_t t = 0; t < tiles.count(); ++t) {
         double pixels = 0;
         for_each_pixel(plate.grid, tiles.box(t), [&](std::size_t i) {
@@ -155,11 +155,8 @@ std::vector<float> likeness(const Rgb &plate, std::span<const std::uint8_t> usab
             for (std::size_t k = 0; k < 3; ++k)
                 errors[t] += std::abs(double(plate.rgb[k][i] - shown.rgb[k][i]));
         });
-        errors[t] = pixels > 0 ? errors[t] / pixels : std::numeric_limits<double>::infinity();
+        if (pixels > 0) known.push_back(errors[t] /= pixels);
     }
-    std::vector<double> known;
-    std::ranges::copy_if(errors, std::back_inserter(known),
-                         [](double error) { return std::isfinite(error); });
     const double alike = known.empty() ? 0 : MatchTuning::alike * median(known);
     std::vector<float> weights(usable.size());
     for (std::size_t t = 0; t < tiles.count(); ++t) {

@@ -66,21 +66,20 @@ std::optional<float> Sights::OfPixels::at(const Imath::V2d &place) const {
     return display.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
 }
 
-Sights::Sights(std::span<const PlacedView> views, double scale_,
-               const std::function<void(std::size_t view)> &forget)
-    : scale(scale_), frame(views.front().samples->windows.data) {
-    for (const auto &[samples, mapping] : views) {
-        const Grid grid(samples->windows.data);
-        std::vector<float> farthest = farthest_in(*samples);
-        forget(farthest_.size());
+Sights::Sights(ReprojectedViews &views, double scale_) : scale(scale_), frame(views.samples(0).windows.data) {
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const Windows windows = views.samples(v).windows;
+        const Grid grid(windows.data);
+        std::vector<float> farthest = farthest_in(views.samples(v));
+        views.forget(v);
         farthest_.push_back(
-            {mapping,
-             {samples->windows.display, grid, least_around(farthest, grid, WarpTuning::sight_margin)}});
-        if (farthest_.size() > 1) continue;
+            {&views.reprojection(v).mapping(),
+             {windows.display, grid, least_around(farthest, grid, WarpTuning::sight_margin)}});
+        if (v > 0) continue;
         // Pixels: how far a lens point moves a solid relative to its sample, plus the margin.
         constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::sight_margin;
-        relief_ = {samples->windows.display, grid, least_around(farthest, grid, reach)};
-        for (float &v : farthest) v = -v;
+        relief_ = {windows.display, grid, least_around(farthest, grid, reach)};
+        for (float &value : farthest) value = -value;
         std::ranges::transform(least_around(farthest, grid, reach), relief_.values, relief_.values.begin(),
                                [](float nearest, float least) { return -nearest - least; });
     }

@@ -4,15 +4,11 @@
 
 #include "base/grid.h"
 #include "deep/ldi.h"
-#include "deep/view_samples.h"
-#include "warp/images/matched_view.h"
+#include "warp/reprojected_views.h"
 
 #include <Imath/ImathVec.h>
 
-#include <cstddef>
-#include <functional>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,9 +17,8 @@ namespace sparselens {
 // How far views saw, the centre view first. `scale`: R F, above 0.
 class Sights {
 public:
-    // Calls forget(view) when the samples of a view are no longer needed.
-    Sights(std::span<const PlacedView> views, double scale,
-           const std::function<void(std::size_t view)> &forget);
+    // Frees the samples of the views. Refers to their mappings.
+    Sights(ReprojectedViews &views, double scale);
 
     // Whether no view saw through what has this disparity at a place of the centre view: each that looks there shows
     // something in front of it, nearer by this many pixels of disparity, in that pixel and in those around it, up to

@@ -151,12 +151,6 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
     mixed_.resize(size());
 }
 
-void ReprojectedViews::forget_colours() {
-    for (const auto &source : sources_) source->samples.forget_colours();
-}
-
-void ReprojectedViews::forget(std::size_t view) { sources_[view]->samples.forget(); }
-
 ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row,
                                         ReprojectedRows rows) const {
     const Grid grid(Imath::Box2i({data.min.x, first_row}, {data.max.x, last_row}));

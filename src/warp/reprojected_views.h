@@ -93,9 +93,8 @@ public:
         return s.source < mixed_[s.view].size() && !mixed_[s.view][s.source];
     }
 
-    // Frees what is no longer needed: colours (see ViewSamples), or all samples of a view.
-    void forget_colours();
-    void forget(std::size_t view);
+    // Frees the samples of a view, which are not needed any more.
+    void forget(std::size_t view) { sources_[view]->samples.forget(); }
 
     // The samples that fall into the rows [first_row, last_row] of the data window. Reuses the memory of rows that are
     // no longer needed.

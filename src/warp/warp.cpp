@@ -184,9 +184,8 @@ Ldi Warper::run(Progress &progress) {
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
-    views_.forget_colours();
-    Sights sights(placed(), scale_, [&](std::size_t view) { views_.forget(view); });
-    give_back_memory(); // of the views
+    Sights sights(views_, scale_);
+    give_back_memory(); // that the views had
     find_solids(sights, ldi);
     if (averages() && options_.extend_surfaces) extend_surfaces(std::move(sights), ldi);
     return ldi;

@@ -13,7 +13,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int noise_block = GatherTuning::cell_px; // which has one noise level
+constexpr int noise_block = GatherTuning::cell_px; // pixels across a block, which has one noise level
 
 class Sharpener {
 public:
