@@ -38,27 +38,49 @@ ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const Shado
     return casters.is_coarse() || lamp.is_beside(place) ? range : Range{lamp.hardly, range.nearest};
 }
 
-// Whether some lens point may bring something in these bounds, in a range of depths, in front of the lamp. They
-// approach by at most the difference of their CoCs.
-bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
-                             const CasterBounds &bounds, const Range &range) const {
+// Returns the lens points through which the lamps of a group may light its screen (lens/lamp_shadow.h).
+Imath::Box2f ShadowSearch::lens_points_of(const ShadowedLamp &lamp) const {
+    const ShadowScreen &screen = lamp.screen;
+    Imath::Box2f lens_points;
+    for (const int axis : {0, 1}) {
+        constexpr double rounding = 0.01; // pixels
+        const double extent = extent_[axis],
+                     apart = (lamp.spread + extent * lamp.cocs + rounding) / std::abs(lamp.lamp.coc);
+        const auto through = [&](int pixel) { return (pixel - screen.middle[axis]) / screen.scale[axis]; };
+        const auto [least, most] =
+            std::minmax({through(screen.box.min[axis]), through(screen.box.max[axis] + 1)});
+        // In this order, NaN gives the whole lens.
+        lens_points.min[axis] = float(std::min(std::max(-extent, least - apart), extent));
+        lens_points.max[axis] = float(std::max(std::min(extent, most + apart), -extent));
+    }
+    return lens_points;
+}
+
+// Whether one of the lens points may bring something in these bounds, in a range of depths, in front of the lamp. A
+// lens point moves them by the difference of their CoCs.
+bool ShadowSearch::is_before(const ShadowedLamp &lamp, const Imath::Box2f &lens_points,
+                             const ShadowCasters &casters, const CasterBounds &bounds,
+                             const Range &range) const {
     const CocRange cocs = bounds.cocs_between(range.farthest, range.nearest);
-    const float coc = float(lamp.lamp.coc) / casters.across, spread = float(lamp.spread) / casters.across,
-                apart =
-                    std::max({coc - cocs.least, cocs.most - coc, 0.0f}) + float(lamp.cocs) / casters.across;
+    if (cocs.least > cocs.most) return false;
+    const float coc = float(lamp.lamp.coc) / casters.across, group = float(lamp.cocs) / casters.across,
+                low = coc - cocs.most - group, high = coc - cocs.least + group;
     const auto reaches = [&](int axis) {
         constexpr float edge = 1.01f; // pixels by which a footprint lies beside its sample, with rounding
-        const float by = apart * float(extent_[axis]) + edge + spread;
+        const float beside = edge + float(lamp.spread) / casters.across, first = lens_points.min[axis],
+                    last = lens_points.max[axis];
+        const auto [least, most] = std::minmax({low * first, low * last, high * first, high * last});
         const float at =
             (float(lamp.origin[axis] + lamp.lamp.centre[axis]) - casters.corner[axis]) / casters.across;
-        return bounds.place.min[axis] - by <= at && bounds.place.max[axis] + by >= at;
+        return bounds.place.min[axis] - beside <= at + most && bounds.place.max[axis] + beside >= at + least;
     };
     return reaches(0) && reaches(1);
 }
 
 // Returns where on the screen the shadow of what is in these bounds and in a range of depths may lie; empty: nowhere.
-Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
-                                     const CasterBounds &bounds, const Range &range) const {
+Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const Imath::Box2f &lens_points,
+                                     const ShadowCasters &casters, const CasterBounds &bounds,
+                                     const Range &range) const {
     const CocRange cocs = bounds.cocs_between(range.farthest, range.nearest);
     if (cocs.least > cocs.most) return {};
     const Lamp &lamp = asked.lamp;
@@ -67,7 +89,7 @@ Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCast
                  most_coc = cell * double(cocs.most);
     const Imath::Box2f all(Imath::V2f(screen.box.min), Imath::V2f(screen.box.max + Imath::V2i(1)));
     if (least_coc <= lamp.coc && most_coc >= lamp.coc)
-        return is_before(asked, casters, bounds, range) ? all : Imath::Box2f();
+        return is_before(asked, lens_points, casters, bounds, range) ? all : Imath::Box2f();
     Imath::Box2f shadow;
     const auto reach = [&](int axis) {
         const double a = shadow_magnification(lamp.coc, least_coc, screen.scale[axis]),

@@ -1,7 +1,8 @@
 // Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
 // A sample hides a lamp only if some point of the lens sees it in front of the lamp. So the search compares bounds
-// (block_footprints.h) by their distance from the lamp and by how far the lens moves them apart.
+// (block_footprints.h) by their distance from the lamp and by how far they are moved apart by those points of the lens
+// through which the lamp lights the screen.
 #pragma once
 
 #include "base/numbers.h"
@@ -105,9 +106,11 @@ public:
     void for_each(const ShadowedLamp &lamp, const Visit &visit) const;
 
 private:
-    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const CasterBounds &bounds,
-                   const Range &range) const;
-    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const CasterBounds &bounds,
+    Imath::Box2f lens_points_of(const ShadowedLamp &lamp) const;
+    bool is_before(const ShadowedLamp &lamp, const Imath::Box2f &lens_points, const ShadowCasters &casters,
+                   const CasterBounds &bounds, const Range &range) const;
+    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const Imath::Box2f &lens_points,
+                           const ShadowCasters &casters, const CasterBounds &bounds,
                            const Range &range) const;
 
     CasterSets casters_; // and those of the tile's coarse scene
@@ -128,12 +131,13 @@ inline bool lie_between(const BlockedSamples &samples, std::uint32_t block, floa
 
 template <typename Visit>
 void ShadowSearch::for_each(const ShadowedLamp &lamp, const Visit &visit) const {
+    const Imath::Box2f lens_points = lens_points_of(lamp);
     for (std::uint32_t set = 0; set < casters_.size(); ++set) {
         const ShadowCasters &casters = casters_[set];
         const Range range = range_of(lamp, casters);
         const auto pass = [&](const CasterBounds &bounds) {
             return bounds.depth_max > range.farthest && bounds.depth_min <= range.nearest &&
-                   is_before(lamp, casters, bounds, range);
+                   is_before(lamp, lens_points, casters, bounds, range);
         };
         const auto visit_block = [&](std::uint32_t b, const CasterBounds &bounds) {
             const Range within = range_of(lamp, casters, bounds.place);
@@ -142,7 +146,8 @@ void ShadowSearch::for_each(const ShadowedLamp &lamp, const Visit &visit) const 
                 before = lie_between(casters.samples, b, within.farthest, within.nearest)
                              ? casters.footprints.of(b).nearer_than(within.farthest)
                              : nullptr;
-            const Imath::Box2f shadow = before ? shadow_of(lamp, casters, *before, within) : Imath::Box2f();
+            const Imath::Box2f shadow =
+                before ? shadow_of(lamp, lens_points, casters, *before, within) : Imath::Box2f();
             return shadow.isEmpty() || visit(CastingBlock{b, set, shadow});
         };
         if (!casters.footprints.for_each(pass, visit_block)) return;
