@@ -1,6 +1,7 @@
 #include "warp/extend_surfaces.h"
 
 #include "base/light.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/unseen.h"
@@ -208,8 +209,14 @@ std::vector<Hidden> find_hidden(const Sights &sights, const Ldi &ldi) {
     std::vector<std::vector<Hidden>> rows(std::size_t(sights.frame.max.y - sights.frame.min.y + 1));
     parallel_for(rows.size(),
                  [&](std::size_t row) { rows[row] = extension.from_row(sights.frame.min.y + int(row)); });
+    std::size_t count = 0;
+    for (const std::vector<Hidden> &row : rows) count += row.size();
     std::vector<Hidden> hidden;
-    for (const std::vector<Hidden> &row : rows) hidden.insert(hidden.end(), row.begin(), row.end());
+    hidden.reserve(count);
+    for (std::vector<Hidden> &row : rows) {
+        hidden.insert(hidden.end(), row.begin(), row.end());
+        row = {};
+    }
     return hidden;
 }
 
@@ -257,6 +264,7 @@ void add(std::vector<Hidden> all, double scale, Ldi &ldi) {
     }
     all = {};
     added.begin.resize(ldi.begin.size(), added.begin.back());
+    give_back_memory(); // that was held before
     insert_samples(ldi, added);
 }
 
@@ -264,7 +272,8 @@ void add(std::vector<Hidden> all, double scale, Ldi &ldi) {
 
 void extend_surfaces(Sights &&sights, Ldi &ldi) {
     const double scale = sights.scale;
-    add(find_hidden(Sights(std::move(sights)), ldi), scale, ldi);
+    std::vector<Hidden> hidden = find_hidden(Sights(std::move(sights)), ldi); // frees the sights before add()
+    add(std::move(hidden), scale, ldi);
 }
 
 void find_solids(const Sights &sights, Ldi &ldi) {
