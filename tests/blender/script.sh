@@ -42,6 +42,10 @@ for what in worldToCamera focus aperture pinholeFocalLength aperture_blades aper
     exrheader alone/center.exr | grep "^$what (" >/dev/null || fail "no $what in the header"
 done
 
+# Each view has noise of its own, even where all see the same.
+in_blender small.blend --python-expr "import bpy; bpy.context.scene.camera.data.dof.aperture_fstop = 1e6" -P "$views" -- "${plain[@]}" -o one_place --samples 4 --views 1
+unlike one_place/center.exr one_place/view_0.exr 60
+
 # The framing, compared with Blender's own pinhole render: shift, fit, non-square pixels, a percentage. Noise with the
 # same seed is the same, so 60 dB; with overscan every pixel has another seed, so 36 dB at 128 samples.
 in_blender pinhole,framing.blend -P "$views" -- "${plain[@]}" -o framing --samples 128 --views 0

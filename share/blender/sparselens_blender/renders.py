@@ -16,7 +16,8 @@ import bpy
 from .chain import Chain
 from .checks import check_scene
 from .exr import exr_int
-from .temporary_settings import finer, only_layer, render_settings, still_camera
+from .temporary_settings import (
+    changed, finer, only_layer, render_settings, still_camera)
 from .halves import check_halves, halves_steps
 from .kept import (
     check_scene_of, denoises, is_kept, is_kept_volume, manner_attributes,
@@ -27,6 +28,9 @@ from .shots import camera_attributes, eyes_of, shot_of
 from .shutter import at_moment, forget_more, moments_of, of_moment
 from .sub_pixels import AUTO, supersample_steps
 from .volumes import check_slices, without_volumes
+
+# Noise of one seed would look like something at infinity that all views show.
+VIEW_SEEDS_APART = 1000003
 
 
 def warn(text):
@@ -114,10 +118,9 @@ def volume_steps(scene, path_of, eye, manner, rest, count):
 
 def part_steps(scene, path_of, views, eye, manner, part, count):
     """The views of a part of the scene."""
-    shot = shot_of(scene, eye, manner.supersample)
     finest = manner.supersample
-    words = [part.words] if part.words else []
-    words += ["without volumes"] if manner.slices else []
+    shot = shot_of(scene, eye, finest)
+    words = filter(None, [part.words, manner.slices and "without volumes"])
     attributes = manner_attributes(scene, manner.layer, manner.multilayer,
                                    ", ".join(words)) | manner.attributes
     if not part.alone:
@@ -141,8 +144,8 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
     kept = {name for name, u, _ in views if manner.keep
             and is_kept(path_of(name), shot, u, attributes)}
     count.keep([path_of(name) for name in kept])
-    left = [(path_of(name), u, box) for name, u, box in views
-            if name not in kept]
+    left = [(number, name, u, box) for number, (name, u, box) in
+            enumerate(views, 1) if name not in kept]
     size = [side + 2 * beyond for side in shot.size]
     with ExitStack() as stack:
         if left:
@@ -151,9 +154,13 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
             stack.enter_context(still_camera(scene))
             stack.enter_context(only_layer(scene, manner.layer))
             stack.enter_context(finer(scene, finest, manner.shutter))
-        for path, u, box in left:
-            yield from view_steps(scene, path, shot, u, beyond, box,
-                                  attributes, plain=not manner.multilayer)
+        for number, name, u, box in left:
+            by = VIEW_SEEDS_APART * (number if name != "center" else 0)
+            with changed(scene.cycles,
+                         seed=(scene.cycles.seed + by) % 2 ** 31):
+                yield from view_steps(
+                    scene, path_of(name), shot, u, beyond, box, attributes,
+                    plain=not manner.multilayer)
             count.rendered += 1
 
 
