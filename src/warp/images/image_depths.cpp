@@ -113,8 +113,18 @@ float depth_around(const Neighbours &neighbours, const Imath::V2i &place, std::v
     return around.size() < WarpTuning::image_least_sources ? unknown : median(around);
 }
 
-// Continues depths to pixels of the same surface, if the views agree there about as well as on the surface, or if they
-// cannot be compared: on edges, and where a steep mirror leaves the surface of its block.
+// Whether a pixel's surface lies on the plane through the surfaces around that show an image.
+bool lies_on_mirror(const Neighbours &neighbours, const Imath::V2i &place) {
+    LinearFit fit;
+    neighbours.for_each_around(place, farther, [&](const Imath::V2i &offset, float depth) {
+        if (!std::isnan(depth)) fit.add(Imath::V2d(offset), double(neighbours.own_depth(place + offset)));
+    });
+    return std::abs(fit.at_origin() - double(neighbours.own_depth(place))) <= WarpTuning::image_off_mirror_px;
+}
+
+// Continues depths to pixels of the same surface, if the views agree there about as well as on the surface. Where they
+// cannot be compared (on edges, and where a steep mirror leaves the surface of its block), the pixel must lie on the
+// mirror.
 void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to) {
     const Neighbours around_tile = neighbours(tile, from);
     const Grid pixels(tile);
@@ -140,12 +150,15 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
     };
     const std::vector<float> means = robust_means(sweep_.differences(tile, tried_at), pixels.size());
     for (std::size_t n = 0; n < pixels.size(); ++n) {
+        if (std::isnan(depths[n])) continue;
         const std::size_t index = search_.index_of(pixels.pixel(n));
         const ImageMatch &match = matches_[index];
         const float most = WarpTuning::image_continued_difference * match.at_surface +
                            WarpTuning::image_continued_least_difference;
-        const bool disproved = match.surface && means[n] > most;
-        if (!std::isnan(depths[n]) && !disproved) to[index] = depths[n];
+        const bool compared = match.surface && !std::isnan(means[n]);
+        const bool shows =
+            compared ? means[n] <= most : lies_on_mirror(around_tile, pixels.pixel(n) - tile.min);
+        if (shows) to[index] = depths[n];
     }
 }
 

@@ -147,6 +147,7 @@ public:
                 pixels_[at({x, y})] = pixel_at(Imath::V2i(x, y));
     }
 
+    float own_depth(const Imath::V2i &place) const { return pixels_[at(place)].own_depth; }
     float depth(const Imath::V2i &place) const { return pixels_[at(place)].depth; }
 
     // Calls visit(offset, depth) for the pixels of the same surface within a distance, at most `reach`, including the
