@@ -123,7 +123,8 @@ Curve medians(std::span<const KeyedValue> keys) {
         for (std::size_t k = i < 2 ? 0 : i - 2; k < std::min(i + 3, keys.size()); ++k)
             if (std::isfinite(keys[k].deviation)) some.push_back(keys[k].value);
         curve.values[i] = some.empty() ? keys[i].value : median(some);
-        off.push_back(std::pow((keys[i].value - curve.values[i]) / keys[i].deviation, 2));
+        if (std::isfinite(keys[i].deviation))
+            off.push_back(std::pow((keys[i].value - curve.values[i]) / keys[i].deviation, 2));
     }
     curve.variance = std::max(curve.variance, median(off));
     return curve;
