@@ -16,6 +16,12 @@ constexpr Count pieces_of(Count length, Count size) {
     return (length + size - 1) / size;
 }
 
+// The pixels that are in both boxes; isEmpty() if there are none.
+inline Imath::Box2i common_box(const Imath::Box2i &a, const Imath::Box2i &b) {
+    return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
+            {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
+}
+
 class Grid {
 public:
     Grid() = default;                                               // no pixels

@@ -18,10 +18,12 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -64,6 +66,22 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
         const std::size_t begin = run * grain;
         task(begin, begin + grain < count ? begin + grain : count);
     });
+}
+
+// Returns what the vectors find(0), find(1), find(2) ... hold, in this order. Any thread may call find().
+template <typename Find>
+auto joined(std::size_t count, const Find &find) {
+    std::vector<decltype(find(std::size_t{0}))> found(count);
+    parallel_for(count, [&](std::size_t i) { found[i] = find(i); });
+    std::size_t total = 0;
+    for (const auto &some : found) total += some.size();
+    decltype(find(std::size_t{0})) all;
+    all.reserve(total);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::ranges::move(found[i], std::back_inserter(all));
+        found[i] = {}; // its memory is not needed any more
+    }
+    return all;
 }
 
 // Makes pieces on all threads, and takes them one by one in their order, for example a file that is read a few rows at

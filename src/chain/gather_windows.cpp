@@ -20,8 +20,7 @@ namespace sparselens {
 namespace {
 
 Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *what) {
-    const Imath::Box2i box({std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
-                           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)});
+    const Imath::Box2i box = common_box(a, b);
     if (box.isEmpty()) throw UsageError(fmt::format("{} contains no pixel of the picture", what));
     return box;
 }
@@ -59,9 +58,7 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
 
 // `box`, extended to whole blocks of sub-pixels inside the display window.
 Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int across) {
-    const Imath::Box2i blocks = subpixels_in(reduced(box, across), across);
-    const Imath::Box2i inside({std::max(blocks.min.x, display.min.x), std::max(blocks.min.y, display.min.y)},
-                              {std::min(blocks.max.x, display.max.x), std::min(blocks.max.y, display.max.y)});
+    const Imath::Box2i inside = common_box(subpixels_in(reduced(box, across), across), display);
     if (!inside.isEmpty()) box.extendBy(inside);
     return box;
 }
@@ -98,10 +95,8 @@ void check_warped_for(int across, int said, const OpenedLdi &in) {
 void need_all(GatherWindows &frame, const Imath::Box2i &display) {
     frame.needed = frame.gathered;
     frame.picture = reduced(frame.gathered, frame.subpixels.across);
-    const Imath::Box2i shown = reduced(display, frame.subpixels.across),
-                       reached = pixels_reached(frame.gathered, frame.subpixels);
-    const Imath::Box2i more({std::max(reached.min.x, shown.min.x), std::max(reached.min.y, shown.min.y)},
-                            {std::min(reached.max.x, shown.max.x), std::min(reached.max.y, shown.max.y)});
+    const Imath::Box2i more =
+        common_box(reduced(display, frame.subpixels.across), pixels_reached(frame.gathered, frame.subpixels));
     if (!more.isEmpty()) frame.picture.extendBy(more);
 }
 

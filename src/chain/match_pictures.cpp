@@ -167,8 +167,7 @@ Rgb Reduced::gather(const ApertureShape &shape, double coc, double scale, bool e
 }
 
 Imath::Box2i common_pixels(const Imath::Box2i &a, const Imath::Box2i &b) {
-    const Imath::Box2i box({std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
-                           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)});
+    const Imath::Box2i box = common_box(a, b);
     if (box.isEmpty()) throw UsageError("`region` contains no pixel that both pictures show");
     return box;
 }

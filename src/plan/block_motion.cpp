@@ -203,9 +203,7 @@ bool agrees(const Displacements &found, const Grid &blocks, const Imath::V2i &at
 
 std::vector<BlockMotion> block_motions(const View &first, const View &second,
                                        const ExpectedMotion &expected) {
-    const Imath::Box2i &one = first.image.windows.data, &other = second.image.windows.data;
-    const Imath::Box2i common({std::max(one.min.x, other.min.x), std::max(one.min.y, other.min.y)},
-                              {std::min(one.max.x, other.max.x), std::min(one.max.y, other.max.y)});
+    const Imath::Box2i common = common_box(first.image.windows.data, second.image.windows.data);
     if (common.isEmpty()) return {};
     const int side = pieces_of(common.max.x - common.min.x + 1, PlanTuning::motion_width);
     const Reduced a(first, common, side), b(second, common, side);

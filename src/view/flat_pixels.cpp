@@ -102,20 +102,16 @@ bool has_speckles(const FlatPixels &picture) {
 
 // Replaces all depths of one round at once, so that none is taken from a depth that was replaced before it.
 std::size_t repair_once(const FlatPixels &picture, std::span<float> z) {
-    std::vector<std::vector<std::pair<std::size_t, float>>> rows(std::size_t(picture.grid.height()));
-    parallel_for(rows.size(), [&](std::size_t row) {
+    const auto depths = joined(std::size_t(picture.grid.height()), [&](std::size_t row) {
+        std::vector<std::pair<std::size_t, float>> of_row;
         for_each_far(picture, int(row), most_around, [&](int x, int y, const Nearer &nearer) {
             const std::size_t own = picture.grid.index(x, y);
-            if (has_colour_of(picture, own, nearer))
-                rows[row].emplace_back(own, middle_depth(picture, nearer));
+            if (has_colour_of(picture, own, nearer)) of_row.emplace_back(own, middle_depth(picture, nearer));
         });
+        return of_row;
     });
-    std::size_t count = 0;
-    for (const auto &row : rows) {
-        for (const auto &[i, depth] : row) z[i] = depth;
-        count += row.size();
-    }
-    return count;
+    for (const auto &[i, depth] : depths) z[i] = depth;
+    return depths.size();
 }
 
 } // namespace

@@ -206,18 +206,8 @@ private:
 
 std::vector<Hidden> find_hidden(const Sights &sights, const Ldi &ldi) {
     const SurfaceExtension extension(sights, ldi);
-    std::vector<std::vector<Hidden>> rows(std::size_t(sights.frame.max.y - sights.frame.min.y + 1));
-    parallel_for(rows.size(),
-                 [&](std::size_t row) { rows[row] = extension.from_row(sights.frame.min.y + int(row)); });
-    std::size_t count = 0;
-    for (const std::vector<Hidden> &row : rows) count += row.size();
-    std::vector<Hidden> hidden;
-    hidden.reserve(count);
-    for (std::vector<Hidden> &row : rows) {
-        hidden.insert(hidden.end(), row.begin(), row.end());
-        row = {};
-    }
-    return hidden;
+    return joined(std::size_t(sights.frame.max.y - sights.frame.min.y + 1),
+                  [&](std::size_t row) { return extension.from_row(sights.frame.min.y + int(row)); });
 }
 
 // A sample that is added to a pixel.
@@ -264,7 +254,7 @@ void add(std::vector<Hidden> all, double scale, Ldi &ldi) {
     }
     all = {};
     added.begin.resize(ldi.begin.size(), added.begin.back());
-    give_back_memory(); // that was held before
+    give_back_memory(); // that the search held
     insert_samples(ldi, added);
 }
 
@@ -286,22 +276,22 @@ void find_solids(const Sights &sights, Ldi &ldi) {
                sights.are_hidden(place, back * sights.scale, WarpTuning::solid_nearer_px);
     };
     const auto width = std::size_t(ldi.windows.width());
-    std::vector<std::vector<std::uint64_t>> rows(std::size_t(ldi.windows.height()));
-    parallel_for(rows.size(), [&](std::size_t row) {
+    const auto solid_in_row = [&](std::size_t row) {
+        std::vector<std::uint64_t> solid;
         for (std::size_t p = row * width; p < (row + 1) * width; ++p)
             for (const std::uint64_t i : ldi.pixel(p)) {
                 if (!(alpha_at(ldi, alpha, i) >= half_covered)) continue;
                 const MergedSample s = sample_at(ldi, i);
                 const Imath::V2d place(0.5 + double(s.dx), 0.5 + double(s.dy));
-                if (is_solid(s, Imath::V2d(ldi.windows.pixel(p)) + place)) rows[row].push_back(i);
+                if (is_solid(s, Imath::V2d(ldi.windows.pixel(p)) + place)) solid.push_back(i);
                 break; // only the first can be
             }
-    });
-    for (const std::vector<std::uint64_t> &solid : rows)
-        for (const std::uint64_t i : solid) {
-            ldi.solid.resize(ldi.samples(), 0);
-            ldi.solid[i] = float(thickness);
-        }
+        return solid;
+    };
+    for (const std::uint64_t i : joined(std::size_t(ldi.windows.height()), solid_in_row)) {
+        ldi.solid.resize(ldi.samples(), 0);
+        ldi.solid[i] = float(thickness);
+    }
 }
 
 } // namespace sparselens

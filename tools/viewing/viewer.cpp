@@ -176,9 +176,7 @@ std::string Viewer::answer(const Words &words, const PageRequest &wanted, Progre
 // Adds the part of the tile that is displayed.
 void Viewer::add_piece(const PageRequest &wanted, const LoadedFrame &frame, const Image &picture,
                        const Imath::Box2i &tile) {
-    const Imath::Box2i &display = picture.windows.display;
-    const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
-                           {std::min(tile.max.x, display.max.x), std::min(tile.max.y, display.max.y)});
+    const Imath::Box2i box = common_box(tile, picture.windows.display);
     if (box.isEmpty()) return;
     Image piece = crop(picture, box);
     piece.windows.display = box;

@@ -90,14 +90,9 @@ std::vector<std::vector<Facet>> find_in_row(const Links &links, const Windows &w
 FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest) {
     const Links links(ldi, lens);
     const float steep = float(steep_px / widest);
-    std::vector<std::vector<std::vector<Facet>>> rows(
-        std::size_t((ldi.windows.height() + FacetBlocks::size - 1) / FacetBlocks::size));
-    parallel_for(rows.size(),
-                 [&](std::size_t row) { rows[row] = find_in_row(links, ldi.windows, int(row), steep); });
-    FacetBlocks found;
-    for (auto &row : rows)
-        for (auto &block : row) found.blocks.push_back(std::move(block));
-    return found;
+    const int rows = pieces_of(ldi.windows.height(), FacetBlocks::size);
+    return {joined(std::size_t(rows),
+                   [&](std::size_t row) { return find_in_row(links, ldi.windows, int(row), steep); })};
 }
 
 LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {

@@ -143,10 +143,7 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
 }
 
 std::vector<Found> HighlightFinder::find() const {
-    std::vector<std::vector<Found>> found(cells_.size());
-    parallel_for(found.size(), [&](std::size_t i) { found[i] = find_in(cells_.pixel(i)); });
-    std::vector<Found> all;
-    for (const auto &some : found) all.insert(all.end(), some.begin(), some.end());
+    std::vector<Found> all = joined(cells_.size(), [&](std::size_t i) { return find_in(cells_.pixel(i)); });
     std::ranges::sort(all, {}, &Found::sample);
     return all;
 }

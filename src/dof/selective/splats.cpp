@@ -135,13 +135,9 @@ SplatBlocks make_splat_blocks(const SplatSource &source) {
     grid.colours = source.colours().size();
     for (auto *array : {&grid.x, &grid.y, &grid.radius}) array->resize(first.back());
     grid.values.resize(first.back() * grid.size());
-    std::vector<std::vector<SplatBlock>> blocks(squares.count());
-    parallel_for(squares.count(), [&](std::size_t square) {
-        blocks[square] =
-            store_square(grid, first[square], splats_of_square(source, squares.box(square)), source);
+    grid.blocks = joined(squares.count(), [&](std::size_t square) {
+        return store_square(grid, first[square], splats_of_square(source, squares.box(square)), source);
     });
-    for (const auto &of_square : blocks)
-        grid.blocks.insert(grid.blocks.end(), of_square.begin(), of_square.end());
     std::stable_sort(grid.blocks.begin(), grid.blocks.end(),
                      [](const SplatBlock &a, const SplatBlock &b) { return a.bin < b.bin; });
     for (std::size_t i = 0; i < grid.blocks.size(); ++i)

@@ -361,9 +361,7 @@ void put_depth_of_file(FlatFile &picture, const std::string &path, const Picture
     const DepthChannel depth = depth_of(file.image.channels, choice.depth, name);
     const auto values = file.image.plane(find_channel(file.image.channels, depth.name));
     const std::span<float> plane = new_depth(picture.image);
-    const Imath::Box2i both(
-        {std::max(from.data.min.x, to.data.min.x), std::max(from.data.min.y, to.data.min.y)},
-        {std::min(from.data.max.x, to.data.max.x), std::min(from.data.max.y, to.data.max.y)});
+    const Imath::Box2i both = common_box(from.data, to.data);
     for (int y = both.min.y; y <= both.max.y; ++y)
         for (int x = both.min.x; x <= both.max.x; ++x) plane[to.index(x, y)] = values[from.index(x, y)];
     picture.notes.push_back(fmt::format("depth: {} of {}", depth.name, display_name(name)));

@@ -242,11 +242,8 @@ private:
 
 std::vector<CompactLamp> find_compact_lamps(const Grid &grid, std::span<const float> brightness) {
     const Tiles blocks(grid.box(), WarpTuning::lamp_block);
-    std::vector<std::vector<Seed>> found(blocks.count());
-    parallel_for(blocks.count(),
-                 [&](std::size_t i) { found[i] = seeds_of(grid, brightness, blocks.box(i)); });
-    std::vector<Seed> seeds;
-    for (const auto &some : found) seeds.insert(seeds.end(), some.begin(), some.end());
+    std::vector<Seed> seeds =
+        joined(blocks.count(), [&](std::size_t i) { return seeds_of(grid, brightness, blocks.box(i)); });
     if (seeds.empty()) return {};
     std::ranges::stable_sort(seeds, std::ranges::greater(), &Seed::brightness);
     Grower grower(grid, brightness);
