@@ -171,7 +171,7 @@ TEST_F(LensDeviceTest, WhatIsSolidIsTheCpus) {
 }
 
 TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
-    Ldi ldi = surfaces(150, 120, false, 4);
+    Ldi ldi = surfaces(900, 8, false, 4); // 15 tiles, of which a buffer holds 7
     add_solids(ldi);
     Watch small = watch();
     small.largest_buffer = 1 << 20;
@@ -266,9 +266,21 @@ TEST_F(LensDeviceTest, AFailureLosesNothing) {
 }
 
 TEST_F(LensDeviceTest, LittleMemoryIsEnough) {
-    const Ldi ldi = surfaces(900, 700, false, 18);
+    const Ldi ldi = surfaces(32000, 2, false, 18); // 500 tiles
     const auto by = [&](TileDevice *used) { return gather(ldi, {.lens_samples = 2, .device = used}); };
     expect_needs_little_memory(by, by(nullptr), 1e-6);
+}
+
+TEST_F(LensDeviceTest, WhatExceedsItsMemoryIsTheCpus) {
+    const Ldi ldi = surfaces(900, 700, false, 18);
+    const auto by = [&](TileDevice *used) { return gather(ldi, {.lens_samples = 2, .device = used}); };
+    const TileReport did = with_memory(64, [&] {
+        device = open_gather_device(*info, watch());
+        EXPECT_EQ(by(device.get()).values, by(nullptr).values);
+        return device->take_report();
+    });
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_EQ(did.failure, info->name + " has not enough memory");
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
-#include "gpu/lens/stripe.h"
 
 #include <algorithm>
 #include <array>
@@ -19,15 +18,18 @@ using Bytes = std::span<const std::byte>;
 
 // Bytes that are compared and copied at once: the colours of a block of pixels.
 constexpr std::size_t page = 1024;
-constexpr std::size_t cocs = 12; // index of the CoCs in parts_of()
+constexpr std::size_t cocs = 2, shown = 3; // indices of parts_of()
 
-// The parts of a stripe in the order of the shader's bindings, without the buffers that the shader writes.
-std::array<Bytes, 16> parts_of(const Stripe &s) {
-    const auto bytes = [](const auto &values) { return std::as_bytes(std::span(values)); };
-    return {bytes(s.places),      bytes(s.uppers),        bytes(s.colours), bytes(s.blocks),
-            bytes(s.block_lists), bytes(s.partial_lists), bytes(s.lens),    bytes(s.tiles),
-            bytes(s.facets),      bytes(s.sets),          bytes(s.columns), bytes(s.holdout),
-            bytes(s.cocs),        bytes(s.alphas),        bytes(s.solids),  bytes(s.shown)};
+Bytes bytes(const auto &values) { return std::as_bytes(std::span(values)); }
+
+// The arrays in the order of the shader's bindings: those of a scene, then those of a stripe.
+std::array<Bytes, 10> parts_of(const SceneArrays &a) {
+    return {bytes(a.places),  bytes(a.uppers), bytes(a.cocs),   bytes(a.shown),  bytes(a.alphas),
+            bytes(a.colours), bytes(a.solids), bytes(a.facets), bytes(a.blocks), bytes(a.sets)};
+}
+std::array<Bytes, 6> parts_of(const TileLists &a) {
+    return {bytes(a.blocks),  bytes(a.partial), bytes(a.lens),
+            bytes(a.columns), bytes(a.holdout), bytes(a.tiles)};
 }
 
 // The ranges where two arrays differ, in whole pages.
@@ -55,34 +57,6 @@ std::vector<ByteRange> changes(Bytes before, Bytes now) {
 Buffer buffer_for(Device &device, std::size_t bytes) {
     return device.buffer(std::max(bytes, std::min(bytes + bytes / 8, device.largest_buffer())));
 }
-
-} // namespace
-
-std::size_t StripeBuffers::bring(Device &device, Stripe &&stripe) {
-    const auto before = parts_of(stripe_), now = parts_of(stripe);
-    std::size_t copied = 0;
-    for (std::size_t part = 0; part < now.size(); ++part) {
-        Bytes there = before[part];
-        if (part == buffers_.size()) buffers_.push_back(buffer_for(device, now[part].size())), there = {};
-        if (buffers_[part].bytes < now[part].size())
-            buffers_[part] = buffer_for(device, now[part].size()), there = {};
-        const std::vector<ByteRange> changed = changes(there, now[part]);
-        device.upload(buffers_[part], now[part], changed);
-        for (const ByteRange &range : changed) copied += range.end - range.begin;
-    }
-    stripe_ = std::move(stripe);
-    return copied;
-}
-
-std::vector<Buffer> StripeBuffers::bindings(const Buffer &values, const Buffer &known,
-                                            const Buffer &sums) const {
-    std::vector<Buffer> all = buffers_;
-    if (stripe_.shown.empty()) all.back() = all[cocs];
-    all.insert(all.end(), {values, known, sums});
-    return all;
-}
-
-namespace {
 
 constexpr std::uint32_t code[] = {
 #include <lens_tile.comp.inc>
@@ -121,19 +95,19 @@ std::vector<LensSample> in_groups(std::span<const LensSample> lens, std::size_t 
 }
 
 // Tests of a sample by a lens point that one of the tile's passes takes.
-double work_of(const Stripe &stripe, const lens_kernel::Tile &tile) {
+double work_of(const SceneArrays &scene, const TileLists &lists, const lens_kernel::Tile &tile) {
     double samples = 0;
     for (const std::uint32_t partial : tile.partial_count) samples += partial;
     for (std::uint32_t n = 0; n < tile.block_count; ++n) {
-        const lens_kernel::Block &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
+        const lens_kernel::Block &block = scene.blocks[lists.blocks[tile.blocks + n]];
         samples += block.opaque_end - block.begin;
     }
     return samples * std::min(tile.lens_count, tile.lens_in_pass);
 }
 
-std::uint32_t passes_of(const Stripe &stripe) {
+std::uint32_t passes_of(std::span<const lens_kernel::Tile> tiles) {
     std::uint32_t passes = 1;
-    for (const lens_kernel::Tile &tile : stripe.tiles)
+    for (const lens_kernel::Tile &tile : tiles)
         passes = std::max(passes, pieces_of(tile.lens_count, tile.lens_in_pass));
     return passes;
 }
@@ -149,6 +123,10 @@ const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t
 
 void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done) {
+    if (largest_array(scene) > device_.largest_buffer()) {
+        worker_.report.on_cpu["more samples than its buffers hold"] += all.size();
+        return;
+    }
     const std::uint32_t rules = rules_of(scene, all), points = points_at_once(device_, rules);
     std::map<const LensSample *, std::vector<LensSample>> lens; // by those of the tasks
     std::vector<TileTask> taken;
@@ -165,55 +143,69 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
         taken.back().lens = grouped;
     }
     const std::span<const TileTask> tasks = taken;
+    if (tasks.empty()) return;
+    OnDevice<SceneArrays> &from = scenes_[scene.coarse ? 1 : 0];
+    bring(from, arrays_of(scene));
     const Program &program = program_for(rules, points);
     const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
         return tasks_that_fit(scene, tasks.subspan(begin, most), bytes);
     };
     const auto work = [&](std::size_t begin, std::size_t count) -> const char * {
-        StripeBuffers buffers = std::exchange(buffers_, {});
-        const bool whole = count == tasks.size() && fits_whole(scene, tasks, worker_.buffer_bytes());
-        if (!whole) buffers = {};
-        worker_.report.uploaded +=
-            buffers.bring(device_, make_stripe(scene, tasks.subspan(begin, count), whole, points,
-                                               std::min(turns_in_pass, device_.most_turns())));
-        gather_stripe(scene, program, buffers,
+        bring(lists_, lists_of(scene, tasks.subspan(begin, count), points,
+                               std::min(turns_in_pass, device_.most_turns())));
+        gather_stripe(scene, program, from,
                       [&](std::size_t t, const TilePicture &picture) { done(numbers[begin + t], picture); });
-        if (whole) buffers_ = std::move(buffers);
         return nullptr;
     };
     worker_.by_stripes(tasks.size(), 1, fit, work);
 }
 
+template <class Arrays>
+void LensTilesOnDevice::bring(OnDevice<Arrays> &there, Arrays arrays) {
+    OnDevice<Arrays> next = std::exchange(there, {}); // a failure leaves nothing of it
+    const auto before = parts_of(next.arrays), now = parts_of(arrays);
+    for (std::size_t part = 0; part < now.size(); ++part) {
+        const bool fits = part < next.buffers.size() && now[part].size() <= next.buffers[part].bytes;
+        if (part == next.buffers.size()) next.buffers.emplace_back();
+        if (!fits) next.buffers[part] = {}, next.buffers[part] = buffer_for(device_, now[part].size());
+        const std::vector<ByteRange> changed = changes(fits ? before[part] : Bytes{}, now[part]);
+        device_.upload(next.buffers[part], now[part], changed);
+        for (const ByteRange &range : changed) worker_.report.uploaded += range.end - range.begin;
+    }
+    next.arrays = std::move(arrays);
+    there = std::move(next);
+}
+
 void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &program,
-                                      const StripeBuffers &in,
+                                      const OnDevice<SceneArrays> &from,
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
-    const std::size_t tiles = in.stripe().tiles.size(), groups = scene.colours.groups,
-                      all = tiles * tile_pixels * groups;
+    const std::vector<lens_kernel::Tile> &tiles = lists_.arrays.tiles;
+    const std::size_t groups = scene.colours.groups, all = tiles.size() * tile_pixels * groups;
+    const std::uint32_t passes = passes_of(tiles);
+    std::vector<Buffer> buffers = from.buffers;
+    if (from.arrays.shown.empty()) buffers[shown] = buffers[cocs];
+    buffers.insert(buffers.end(), lists_.buffers.begin(), lists_.buffers.end());
     const Buffer values = device_.buffer(all * 4 * sizeof(float)),
-                 known = device_.buffer(all * sizeof(float));
-    const std::uint32_t passes = passes_of(in.stripe());
-    const Buffer sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
+                 known = device_.buffer(all * sizeof(float)),
+                 sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
+    buffers.insert(buffers.end(), {values, known, sums});
     for (std::uint32_t pass = 0; pass < passes; ++pass)
-        run(program, in.stripe(), pass, scene, in.bindings(values, known, sums));
+        for (std::uint32_t first = 0, end = 0; first < tiles.size(); first = end) {
+            for (double work = 0; end < tiles.size() && (end == first || work < work_at_once); ++end)
+                work += work_of(from.arrays, lists_.arrays, tiles[end]);
+            const lens_kernel::Push push{first, std::uint32_t(tiles.size()),
+                                         std::uint32_t(from.arrays.alphas.size()), pass,
+                                         float(scene.held_out.depth_at_1)};
+            device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
+                        {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});
+        }
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);
-    parallel_for(tiles, [&](std::size_t t) {
-        done(t, {&value[t * tile_pixels * 4], &knowns[t * tile_pixels], groups, tiles * tile_pixels * 4});
+    parallel_for(tiles.size(), [&](std::size_t t) {
+        done(t,
+             {&value[t * tile_pixels * 4], &knowns[t * tile_pixels], groups, tiles.size() * tile_pixels * 4});
     });
-}
-
-void LensTilesOnDevice::run(const Program &program, const Stripe &stripe, std::uint32_t pass,
-                            const GatherScene &scene, std::span<const Buffer> buffers) {
-    const auto tiles = std::uint32_t(stripe.tiles.size());
-    for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
-        for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
-            work += work_of(stripe, stripe.tiles[end]);
-        const lens_kernel::Push push{first, tiles, std::uint32_t(stripe.alphas.size()), pass,
-                                     float(scene.held_out.depth_at_1)};
-        device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
-                    {lens_kernel::quarters * (end - first), std::uint32_t(scene.colours.groups), 1});
-    }
 }
 
 } // namespace sparselens::gpu

@@ -1,31 +1,25 @@
-// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU tiles that fit into no buffer,
+// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU scenes that fit into no buffer,
 // and tiles for which one lens point takes more turns of loops than the device allows.
 #pragma once
 
 #include "dof/device/tile_device.h"
 #include "gpu/device_worker.h"
-#include "gpu/lens/stripe.h"
+#include "gpu/lens/scene_arrays.h"
+#include "gpu/lens/tile_lists.h"
 
+#include <array>
 #include <map>
 #include <vector>
 
 namespace sparselens::gpu {
 
-// A stripe in the buffers of a device. A new stripe is compared with the one before, and only what differs is copied.
-// In a pull of focus over one LDI, the positions, depths and coverages of samples stay the same, and most of their
-// colours. It need not be known whether it is the same LDI.
-class StripeBuffers {
-public:
-    // Returns how many bytes went to the device. Throws DeviceFailed; the buffers must not be used after that.
-    std::size_t bring(Device &device, Stripe &&stripe);
-
-    const Stripe &stripe() const { return stripe_; }
-    // The buffers in the order of the shader's bindings, including those that the shader writes.
-    std::vector<Buffer> bindings(const Buffer &values, const Buffer &known, const Buffer &sums) const;
-
-private:
-    Stripe stripe_;
-    std::vector<Buffer> buffers_;
+// Arrays that are in buffers of a device, in the order of parts_of(). New arrays are compared with those before, and
+// only what differs is copied. In a pull of focus over one LDI, the positions, depths and coverages of samples stay the
+// same, and most of their colours. It need not be known whether it is the same LDI.
+template <class Arrays>
+struct OnDevice {
+    Arrays arrays;
+    std::vector<Buffer> buffers;
 };
 
 class LensTilesOnDevice {
@@ -38,15 +32,16 @@ public:
 
 private:
     const Program &program_for(std::uint32_t rules, std::uint32_t points);
-    void gather_stripe(const GatherScene &scene, const Program &program, const StripeBuffers &in,
+    template <class Arrays>
+    void bring(OnDevice<Arrays> &there, Arrays arrays);
+    void gather_stripe(const GatherScene &scene, const Program &program, const OnDevice<SceneArrays> &from,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
-    void run(const Program &program, const Stripe &stripe, std::uint32_t pass, const GatherScene &scene,
-             std::span<const Buffer> buffers);
 
     DeviceWorker &worker_;
     Device &device_;
-    std::map<std::uint32_t, Program> programs_; // by their rules; made when they are first needed
-    StripeBuffers buffers_;                     // kept for the next frame if one stripe is everything
+    std::map<std::uint32_t, Program> programs_;   // by their rules; made when they are first needed
+    std::array<OnDevice<SceneArrays>, 2> scenes_; // the picture's, and the last coarse one
+    OnDevice<TileLists> lists_;                   // of the last stripe
 };
 
 } // namespace sparselens::gpu

@@ -1,26 +1,26 @@
-// The data of the lens gather's kernel: bindings, shared memory, and the state of a work group. All belong to one
-// stripe (stripe.h).
+// The data of the lens gather's kernel: bindings, shared memory, and the state of a work group.
 
-// Samples. Data that change in a pull of focus are apart from data that do not.
+// The scene (scene_arrays.h). Data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
 // The upper half of the key, with the bit `hiding` except for fillers.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
-layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][sample]
-layout(binding = 3) readonly buffer Blocks { Block blocks[]; };
-layout(binding = 4) readonly buffer BlockLists { uint block_lists[]; };
-layout(binding = 5) readonly buffer PartialLists { uint partial_lists[]; }; // front to back
-layout(binding = 6) readonly buffer LensPoints { Lens lens_points[]; };
-layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
-layout(binding = 8) readonly buffer Facets { uint facets[]; };  // three samples each
-layout(binding = 9) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
-layout(binding = 10) readonly buffer Columns { uint columns[]; };
-layout(binding = 11) readonly buffer Holdouts { uint holdouts[]; };
-layout(binding = 12) readonly buffer Cocs { float cocs[]; };   // move what is seen and what hides
-layout(binding = 13) readonly buffer Alphas { float alphas[]; };
-// the sample that each shows; solids come after all samples
-layout(binding = 14) readonly buffer Solids { uint solids[]; };
+layout(binding = 2) readonly buffer Cocs { float cocs[]; }; // move what is seen and what hides
 // CoCs of what opaque samples show, such as an image in a mirror
-layout(binding = 15) readonly buffer Shown { float shown[]; };
+layout(binding = 3) readonly buffer Shown { float shown[]; };
+layout(binding = 4) readonly buffer Alphas { float alphas[]; };
+layout(binding = 5) readonly buffer Colours { vec4 colours[]; }; // [group][sample]
+// the sample that each shows; solids come after all samples
+layout(binding = 6) readonly buffer Solids { uint solids[]; };
+layout(binding = 7) readonly buffer Facets { uint facets[]; }; // three samples each
+layout(binding = 8) readonly buffer Blocks { Block blocks[]; };
+layout(binding = 9) readonly buffer Sets { uint sets[]; }; // [channel]: its ColourSet
+// The stripe of tiles (tile_lists.h).
+layout(binding = 10) readonly buffer BlockLists { uint block_lists[]; };
+layout(binding = 11) readonly buffer PartialLists { uint partial_lists[]; }; // front to back
+layout(binding = 12) readonly buffer LensPoints { Lens lens_points[]; };
+layout(binding = 13) readonly buffer Columns { uint columns[]; };
+layout(binding = 14) readonly buffer Holdouts { uint holdouts[]; };
+layout(binding = 15) readonly buffer Tiles { Tile tiles[]; };
 layout(binding = 16) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel of the tile]
 // [group][tile][pixel]: 1 if anything is known, else 0
 layout(binding = 17) writeonly buffer Knowns { float knowns[]; };
@@ -28,7 +28,7 @@ layout(binding = 17) writeonly buffer Knowns { float knowns[]; };
 layout(binding = 18) buffer Sums { vec4 sums[]; };
 layout(push_constant) uniform Pushed { Push push; };
 
-// The rules that the stripe needs are known when the pipeline is made: the others leave nothing behind in it.
+// The rules that the tiles need are known when the pipeline is made: the others leave nothing behind in it.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint workers = 256; // of a work group
 layout(constant_id = 1) const uint points = 4;    // of the lens, at once

@@ -1,4 +1,4 @@
-// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU tiles that fit into no
+// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU splats that fit into no
 // buffer, and all tiles if the device has no numbers of 64 bits.
 #pragma once
 

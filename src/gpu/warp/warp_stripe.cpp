@@ -16,9 +16,10 @@ struct Rows { // of a view, from the top of its data window
     std::size_t first, end;
 };
 
-// The rows of a view that show things in the box at depths down to 1 / inverse_z, because the votes look there.
-// Positions in the view are linear in p, and change in one direction with 1 / z, so the extremes lie at the corners.
-Rows rows_asked(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box, double inverse_z) {
+// The rows of a view that show things in the box, or next to it, at depths down to 1 / inverse_z: what falls into the
+// box, and where the votes look. Positions in the view are linear in p, and change in one direction with 1 / z, so the
+// extremes lie at the corners.
+Rows rows_needed(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box, double inverse_z) {
     const ViewMapping &mapping = views.reprojection(v).mapping();
     const Imath::Box2i &data = views.samples(v).windows.data;
     const auto height = std::size_t(views.samples(v).windows.height());
@@ -32,33 +33,6 @@ Rows rows_asked(const ReprojectedViews &views, std::size_t v, const Imath::Box2i
         }
     const auto row = [&](double y) { return std::clamp(y - data.min.y, 0.0, double(height)); };
     return {std::size_t(row(std::floor(top) - 1)), std::size_t(row(std::floor(bottom) + 2))};
-}
-
-Rows rows_that_reach(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box) {
-    const Reprojection &reprojection = views.reprojection(v);
-    const auto height = std::size_t(views.samples(v).windows.height());
-    Rows rows{height, 0};
-    for (std::size_t row = 0; row < height; ++row)
-        if (reprojection.may_reach(row, box.min.y, box.max.y)) {
-            rows.first = std::min(rows.first, row);
-            rows.end = row + 1;
-        }
-    return rows;
-}
-
-Rows rows_needed(const WarpScene &scene, std::size_t v, const Imath::Box2i &box, double inverse_z) {
-    Rows rows = rows_that_reach(scene.views, v, box);
-    if (!scene.averages) return rows;
-    Rows asked = rows_asked(scene.views, v, box, inverse_z);
-    if (v == 0) { // votes do not look at it; photo-consistency looks at the pixels around
-        const Windows &centre = scene.views.samples(0).windows;
-        const auto row = [&](int y) {
-            return std::size_t(std::clamp(y - centre.data.min.y, 0, centre.height()));
-        };
-        asked = {row(box.min.y - 1), row(box.max.y + 2)};
-    }
-    if (asked.first >= asked.end) return rows;
-    return {std::min(rows.first, asked.first), std::max(rows.end, asked.end)};
 }
 
 warp_kernel::View view_of(const ReprojectedViews &views, std::size_t v) {
@@ -94,8 +68,7 @@ WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double i
     for (std::size_t v = 0; v < scene.views.size(); ++v) {
         const ViewSamples &samples = scene.views.samples(v);
         const auto width = std::size_t(samples.windows.width());
-        Rows rows = rows_needed(scene, v, box, inverse_z);
-        if (rows.first >= rows.end) rows = {0, 0};
+        const Rows rows = rows_needed(scene.views, v, box, inverse_z);
         warp_kernel::View view = view_of(scene.views, v);
         view.first_row += int(rows.first);
         view.rows = int(rows.end - rows.first);

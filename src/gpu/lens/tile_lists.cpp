@@ -1,0 +1,249 @@
+#include "gpu/lens/tile_lists.h"
+
+#include "base/parallel.h"
+#include "deep/merge.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace sparselens::gpu {
+
+using namespace lens_kernel;
+
+namespace {
+
+constexpr int rows_a_word = 2;
+constexpr std::size_t words_a_lens_point = tile_size / rows_a_word;
+constexpr std::size_t words_a_part = 3;
+
+std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
+    std::size_t count = 0;
+    for (const std::uint32_t b : task.samples) count += samples.blocks[b].end - samples.blocks[b].opaque_end;
+    return count;
+}
+
+bool shares_lens(std::span<const TileTask> tasks, std::size_t t) {
+    return t > 0 && tasks[t].lens.data() == tasks[t - 1].lens.data();
+}
+
+Imath::Box2i pixels_of(const GatherScene &scene, const TileTask &task) { // EXR coordinates
+    const Imath::V2i first = scene.held_out.corner + task.origin;
+    return {first, first + Imath::V2i(tile_size - 1)};
+}
+
+std::size_t column_words(const GatherScene &scene, const TileTask &task) {
+    return scene.cat_eye() ? task.lens.size() * words_a_lens_point : 0;
+}
+
+std::vector<std::uint32_t> columns_of(const GatherScene &scene, const TileTask &task) {
+    const Imath::V2i first = pixels_of(scene, task).min;
+    std::vector<std::uint32_t> words(column_words(scene, task));
+    for (std::size_t word = 0; word < words.size(); ++word)
+        for (int row = 0; row < rows_a_word; ++row) {
+            const int y = int(word % words_a_lens_point) * rows_a_word + row;
+            const auto [begin, end] = scene.cat_eye()->columns(task.lens[word / words_a_lens_point], first.x,
+                                                               tile_size, first.y + y);
+            words[word] |= std::uint32_t(begin | end << 8) << 16 * row;
+        }
+    return words;
+}
+
+std::size_t holdout_words(const GatherScene &scene, const TileTask &task) {
+    if (!scene.held_out.by) return 0;
+    return tile_pixels + 1 + words_a_part * scene.held_out.by->parts_in(pixels_of(scene, task));
+}
+
+std::vector<std::uint32_t> holdout_of(const GatherScene &scene, const TileTask &task) {
+    std::vector<std::uint32_t> words;
+    if (!scene.held_out.by) return words;
+    const Imath::V2i first = pixels_of(scene, task).min;
+    std::vector<Holdout::Part> parts;
+    for (int y = 0; y < tile_size; ++y)
+        for (int x = 0; x < tile_size; ++x) {
+            words.push_back(std::uint32_t(parts.size()));
+            scene.held_out.by->append_parts(first.x + x, first.y + y, parts);
+        }
+    words.push_back(std::uint32_t(parts.size()));
+    for (const Holdout::Part &part : parts)
+        for (const float value : {part.front, part.back, part.clear})
+            words.push_back(std::bit_cast<std::uint32_t>(value));
+    return words;
+}
+
+// How far lens points move a sample: per pixel of CoC, and besides.
+struct Reach {
+    float x = 0, y = 0, all = 0;
+};
+
+Reach reach_of(const TileTask &task) {
+    Reach reach;
+    for (const LensSample &p : task.lens) {
+        reach.x = std::max(reach.x, std::abs(p.x));
+        reach.y = std::max(reach.y, std::abs(p.y));
+        reach.all = std::max({reach.all, std::abs(p.pixel_x), std::abs(p.pixel_y)});
+    }
+    return reach;
+}
+
+bool within(float at, float first, float reach) {
+    return at > first - reach && at < first + float(size) + reach;
+}
+
+// Lists the samples of partial coverage that a tile's lens points can bring into each of its quarters: front to
+// back, and in ascending order where depths are equal.
+using PartialLists = std::array<std::vector<std::uint32_t>, quarters>;
+
+PartialLists partial_of(const BlockedSamples &samples, const TileTask &task) {
+    constexpr float margin = 2; // pixels: those next to the quarter, and rounding
+    const Reach reach = reach_of(task);
+    std::vector<std::uint32_t> sorted;
+    for (const std::uint32_t b : task.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
+            sorted.push_back(i);
+    std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
+        return samples.depth(a) != samples.depth(b) ? samples.depth(a) > samples.depth(b) : a < b;
+    });
+    PartialLists lists;
+    for (const std::uint32_t i : sorted) {
+        const float coc = std::abs(samples.hiding_coc()[i]), beside = reach.all + margin,
+                    across = coc * reach.x + beside, down = coc * reach.y + beside;
+        for (std::size_t q = 0; q < quarters; ++q) {
+            const float left = float(task.origin.x + int(q % 2) * size),
+                        top = float(task.origin.y + int(q / 2) * size);
+            if (within(samples.x[i], left, across) && within(samples.y[i], top, down)) lists[q].push_back(i);
+        }
+    }
+    return lists;
+}
+
+// What is looked up for the pixels of a tile.
+struct LookedUp {
+    std::vector<std::uint32_t> columns, holdout;
+    PartialLists partial;
+};
+
+// Adds numbers to a list, and returns where they begin.
+std::uint32_t append(std::vector<std::uint32_t> &list, std::span<const std::uint32_t> numbers,
+                     std::size_t plus = 0) {
+    const auto at = std::uint32_t(list.size());
+    for (const std::uint32_t n : numbers) list.push_back(std::uint32_t(n + plus));
+    return at;
+}
+
+std::uint32_t append(std::vector<Lens> &list, std::span<const LensSample> lens) {
+    const auto at = std::uint32_t(list.size());
+    for (const LensSample &p : lens)
+        list.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2], p.behind[0],
+                        p.behind[1], p.behind[2], p.in_front[0], p.in_front[1], p.in_front[2]});
+    return at;
+}
+
+// Lists a tile, and the blocks that reach it.
+Tile list_tile(TileLists &lists, const GatherScene &scene, const TileTask &task, const LookedUp &looked_up) {
+    const std::size_t fillers = scene.samples.blocks.size(),
+                      solids = fillers + scene.fillers.samples.blocks.size(),
+                      facets = solids + scene.solids.blocks.size();
+    const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
+    Tile tile{};
+    tile.x = float(task.origin.x);
+    tile.y = float(task.origin.y);
+    tile.size = task.size;
+    tile.blocks = append(lists.blocks, task.samples);
+    tile.block_count = count(task.samples);
+    append(lists.blocks, task.fillers, fillers);
+    tile.filler_count = count(task.fillers);
+    for (std::size_t q = 0; q < quarters; ++q) {
+        tile.partial[q] = append(lists.partial, looked_up.partial[q]);
+        tile.partial_count[q] = count(looked_up.partial[q]);
+    }
+    tile.lens_count = std::uint32_t(task.lens.size());
+    tile.facets = append(lists.blocks, task.facets, facets);
+    tile.facet_count = count(task.facets);
+    tile.solids = append(lists.blocks, task.solids, solids);
+    tile.solid_count = count(task.solids);
+    tile.columns = append(lists.columns, looked_up.columns);
+    tile.holdout = append(lists.holdout, looked_up.holdout);
+    return tile;
+}
+
+} // namespace
+
+std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
+    std::size_t listed = 0, partial = 0, lens = 0, columns = 0, held_out = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        const TileTask &task = tasks[t];
+        listed += task.samples.size() + task.fillers.size() + task.facets.size() + task.solids.size();
+        partial += partial_count(scene.samples, task);
+        if (!shares_lens(tasks, t)) lens += task.lens.size();
+        columns += column_words(scene, task);
+        held_out += holdout_words(scene, task);
+        const std::size_t most =
+            std::max({listed * 4, partial * 4 * quarters, columns * 4, held_out * 4, lens * sizeof(Lens),
+                      (t + 1) * tile_pixels * scene.colours.groups * 32});
+        if (most > bytes) return t;
+    }
+    return tasks.size();
+}
+
+double turns_of(const GatherScene &scene, const TileTask &task) {
+    const auto turns = [](const auto &blocks, std::span<const std::uint32_t> of) {
+        double sum = 0;
+        for (const std::uint32_t b : of) sum += 2 + double(blocks[b].end - blocks[b].begin) / 32;
+        return sum;
+    };
+    return 800 + turns(scene.samples.blocks, task.samples) +
+           turns(scene.fillers.samples.blocks, task.fillers) + 3 * turns(scene.solids.blocks, task.solids) +
+           12 * turns(scene.facets.blocks, task.facets) + double(partial_count(scene.samples, task));
+}
+
+TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, std::uint32_t points,
+                   double most_turns) {
+    std::vector<LookedUp> looked_up(tasks.size());
+    parallel_for(tasks.size(), [&](std::size_t t) {
+        looked_up[t] = {columns_of(scene, tasks[t]), holdout_of(scene, tasks[t]),
+                        partial_of(scene.samples, tasks[t])};
+    });
+    TileLists lists;
+    std::uint32_t lens = 0;
+    float weight = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        Tile &tile = lists.tiles.emplace_back(list_tile(lists, scene, tasks[t], looked_up[t]));
+        looked_up[t] = {};
+        if (!shares_lens(tasks, t)) {
+            lens = append(lists.lens, tasks[t].lens);
+            weight = 0;
+            for (const LensSample &p : tasks[t].lens) weight += p.weight;
+        }
+        tile.lens = lens;
+        tile.weight = weight;
+        const double at_once = std::clamp(most_turns / turns_of(scene, tasks[t]), 1.0, 1e6);
+        tile.lens_in_pass = points * std::uint32_t(at_once);
+    }
+    return lists;
+}
+
+std::uint32_t rules_of(const GatherScene &scene, std::span<const TileTask> tasks) {
+    std::uint32_t rules = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        if (!shares_lens(tasks, t))
+            for (const LensSample &p : tasks[t].lens) {
+                if (p.rgb != no_factors) rules |= weighted;
+                if (p.behind != no_factors || p.in_front != no_factors) rules |= weighted | two_sided;
+            }
+        for (const std::uint32_t b : tasks[t].samples) {
+            const SampleBlock &block = scene.samples.blocks[b];
+            if (block.shows_images) rules |= images;
+            if (block.opaque_end != block.end) rules |= with_partial;
+        }
+        if (!tasks[t].facets.empty()) rules |= with_facets;
+        if (!tasks[t].solids.empty()) rules |= with_solids;
+    }
+    if (scene.cat_eye()) rules |= weighted | cat_eye;
+    if (scene.cat_eye() && scene.cat_eye()->darkens()) rules |= darkens;
+    if (scene.held_out.by) rules |= holdout;
+    return rules;
+}
+
+} // namespace sparselens::gpu

@@ -1,0 +1,44 @@
+// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it. A picture has stripes of
+// tiles, because the lists and the result of all tiles may fit into no buffer of the device.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "dof/lens/gather_scene.h"
+#include "kernels/lens_rules.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens::gpu {
+
+inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
+
+struct TileLists {
+    std::vector<std::uint32_t> blocks;  // SceneArrays::blocks
+    std::vector<std::uint32_t> partial; // samples of partial coverage
+    std::vector<lens_kernel::Lens> lens;
+    // [tile][lens point][two rows]: begin and end of the pixels that see through it past a cat-eye
+    std::vector<std::uint32_t> columns;
+    // [tile]: for each pixel, the index of its first part of the tile's holdout; then the number of all parts; then for
+    // each part front, back and the share of light that it lets through (bits of float). Empty without a holdout.
+    std::vector<std::uint32_t> holdout;
+    std::vector<lens_kernel::Tile> tiles; // one per task
+};
+
+// How many of the tasks, from the first, fit into buffers of that many bytes.
+std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
+
+// How many turns of the program's loops some lens points, taken at once, of the tile take; an upper estimate.
+double turns_of(const GatherScene &scene, const TileTask &task);
+
+// The lens points of each task are taken `points` at a time. `most_turns`: in a pass; at least turns_of() for each
+// task.
+TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, std::uint32_t points,
+                   double most_turns);
+
+// Returns the rules of lens_rules.h that any of the tasks needs.
+std::uint32_t rules_of(const GatherScene &scene, std::span<const TileTask> tasks);
+
+} // namespace sparselens::gpu
