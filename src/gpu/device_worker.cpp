@@ -9,6 +9,8 @@ namespace sparselens::gpu {
 
 namespace {
 
+constexpr const char *too_many = "more samples than its buffers hold";
+
 std::size_t counted(const DeviceReport &report) {
     std::size_t all = report.on_device;
     for (const auto &left : report.on_cpu) all += left.second;
@@ -34,7 +36,7 @@ void DeviceWorker::by_stripes(std::size_t units, std::size_t least,
                               const std::function<const char *(std::size_t, std::size_t)> &work) {
     for (std::size_t begin = 0; begin < units;) {
         std::size_t count = fit(begin, std::min(at_once_, units - begin), buffer_bytes());
-        const char *why = "more samples than its buffers hold";
+        const char *why = too_many;
         if (count > 0) try {
                 why = work(begin, count);
             } catch (const DeviceFull &) {
@@ -47,6 +49,12 @@ void DeviceWorker::by_stripes(std::size_t units, std::size_t least,
         (why ? report.on_cpu[why] : report.on_device) += count;
         begin += count;
     }
+}
+
+bool DeviceWorker::holds(std::size_t bytes, std::size_t units) {
+    if (bytes <= device.largest_buffer()) return true;
+    report.on_cpu[too_many] += units;
+    return false;
 }
 
 std::size_t DeviceWorker::buffer_bytes() const {

@@ -28,6 +28,9 @@ public:
                     const std::function<std::size_t(std::size_t, std::size_t, std::size_t)> &fit,
                     const std::function<const char *(std::size_t, std::size_t)> &work);
 
+    // Whether a buffer can have so many bytes. If not, the report says that the CPU has to do the `units`.
+    bool holds(std::size_t bytes, std::size_t units);
+
     std::size_t buffer_bytes() const; // of a buffer, at most
     DeviceReport take_report();
 

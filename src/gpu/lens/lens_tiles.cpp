@@ -123,10 +123,7 @@ const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t
 
 void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done) {
-    if (largest_array(scene) > device_.largest_buffer()) {
-        worker_.report.on_cpu["more samples than its buffers hold"] += all.size();
-        return;
-    }
+    if (!worker_.holds(largest_array(scene), all.size())) return;
     const std::uint32_t rules = rules_of(scene, all), points = points_at_once(device_, rules);
     std::map<const LensSample *, std::vector<LensSample>> lens; // by those of the tasks
     std::vector<TileTask> taken;
@@ -162,12 +159,15 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
 
 template <class Arrays>
 void LensTilesOnDevice::bring(OnDevice<Arrays> &there, Arrays arrays) {
-    OnDevice<Arrays> next = std::exchange(there, {}); // a failure leaves nothing of it
+    OnDevice<Arrays> next = std::exchange(there, {}); // after a failure, nothing is there
     const auto before = parts_of(next.arrays), now = parts_of(arrays);
     for (std::size_t part = 0; part < now.size(); ++part) {
         const bool fits = part < next.buffers.size() && now[part].size() <= next.buffers[part].bytes;
         if (part == next.buffers.size()) next.buffers.emplace_back();
-        if (!fits) next.buffers[part] = {}, next.buffers[part] = buffer_for(device_, now[part].size());
+        if (!fits) {
+            next.buffers[part] = {}; // gives its memory back first
+            next.buffers[part] = buffer_for(device_, now[part].size());
+        }
         const std::vector<ByteRange> changed = changes(fits ? before[part] : Bytes{}, now[part]);
         device_.upload(next.buffers[part], now[part], changed);
         for (const ByteRange &range : changed) worker_.report.uploaded += range.end - range.begin;

@@ -1,5 +1,5 @@
-// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU scenes that fit into no buffer,
-// and tiles for which one lens point takes more turns of loops than the device allows.
+// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU scenes that are larger than a
+// buffer, and tiles for which one lens point takes more turns of loops than the device allows.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -15,7 +15,7 @@ namespace sparselens::gpu {
 
 // Arrays that are in buffers of a device, in the order of parts_of(). New arrays are compared with those before, and
 // only what differs is copied. In a pull of focus over one LDI, the positions, depths and coverages of samples stay the
-// same, and most of their colours. It need not be known whether it is the same LDI.
+// same, and most of their colours. The caller need not say whether it is the same LDI.
 template <class Arrays>
 struct OnDevice {
     Arrays arrays;

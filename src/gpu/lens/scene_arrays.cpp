@@ -8,9 +8,10 @@ namespace sparselens::gpu {
 
 namespace {
 
-// The samples or facets of blocks, which follow each other.
+// The number of samples or facets. Those of a block follow those of the block before.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
+// The number of samples that have colours.
 std::size_t coloured(const GatherScene &scene) {
     return count_of(scene.samples) + count_of(scene.fillers.samples);
 }

@@ -118,7 +118,7 @@ PartialLists partial_of(const BlockedSamples &samples, const TileTask &task) {
     return lists;
 }
 
-// What is looked up for the pixels of a tile.
+// Tables for the pixels of a tile.
 struct LookedUp {
     std::vector<std::uint32_t> columns, holdout;
     PartialLists partial;

@@ -1,5 +1,5 @@
-// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it. A picture has stripes of
-// tiles, because the lists and the result of all tiles may fit into no buffer of the device.
+// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it. A picture is cut
+// into stripes of tiles, because the lists or the results of all tiles may be larger than a buffer of the device.
 #pragma once
 
 #include "dof/device/tile_device.h"

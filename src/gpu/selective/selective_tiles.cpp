@@ -63,10 +63,7 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
         worker_.report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
         return;
     }
-    if (largest_array(scene.splats) > device.largest_buffer()) {
-        worker_.report.on_cpu["more samples than its buffers hold"] += tasks.size();
-        return;
-    }
+    if (!worker_.holds(largest_array(scene.splats), tasks.size())) return;
     if (!program_) program_.emplace(device.program("selective", code, bindings, sizeof(splat_kernel::Push)));
     const SplatArrays from = arrays_of(scene.splats);
     std::vector<Buffer> placed;

@@ -1,5 +1,5 @@
-// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU splats that fit into no
-// buffer, and all tiles if the device has no numbers of 64 bits.
+// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU splats that are more
+// than a buffer holds, and all tiles if the device has no numbers of 64 bits.
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -1,7 +1,7 @@
 // The splats of the selective gather, and tiles of it that a device takes at once, as selective_tile.comp reads them.
 //
-// What a tile visits is cut into passes of a limited number of steps, because devices end work that takes long. A tile
-// that is done sooner has empty passes at the end.
+// The list of a tile is cut into passes. Each pass takes a limited number of steps, because devices end work that takes
+// long. A tile that is done sooner has empty passes at the end.
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -16,8 +16,8 @@ struct Rows { // of a view, from the top of its data window
     std::size_t first, end;
 };
 
-// The rows of a view that show things in the box, or next to it, at depths down to 1 / inverse_z: what falls into the
-// box, and where the votes look. Positions in the view are linear in p, and change in one direction with 1 / z, so the
+// The rows of a view that show something in the box or next to it, at depths from 1 / inverse_z on: the samples that
+// fall into the box, and those that the votes look at. Positions in the view are linear in p, and change in one direction with 1 / z, so the
 // extremes lie at the corners.
 Rows rows_needed(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box, double inverse_z) {
     const ViewMapping &mapping = views.reprojection(v).mapping();
