@@ -1,5 +1,6 @@
 #include "dof/border_reach.h"
 
+#include "base/grid.h"
 #include "deep/build.h"
 #include "dof/tuning.h"
 #include "lens/lamp_spread.h"
@@ -133,9 +134,10 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
         if (lets_through(ldi, alpha, samples)) add(std::numeric_limits<double>::infinity());
     });
     const Imath::V2i size = frame.size() + Imath::V2i(1);
-    const double most = std::max(size.x, size.y) / 2.0;
+    const int most = pieces_of(std::max(size.x, size.y), 2), step = GatherTuning::border_step;
     const auto pixels = [&](int k) {
-        return int(std::ceil(std::min(std::max(reach.before[k], reach.after[k]), most)));
+        const double needed = std::min(std::max(reach.before[k], reach.after[k]), double(most));
+        return std::min(pieces_of(int(std::ceil(needed)), step) * step, most);
     };
     return {pixels(0), pixels(1)};
 }
