@@ -1,7 +1,7 @@
 #version 460
 // The selective gather of a tile: the same as src/dof/selective/selective.cpp, with the same sums in the same order.
 //
-// A work group takes the pieces that its tile lists (splat_arrays.h), front to back. If the discs of a block cover the tile, the
+// A work group takes the pieces that its tile lists (splat_lists.h), front to back. If the discs of a block cover the tile, the
 // sums of the block are all that it needs. Of other blocks, it brings a chunk of splats into shared memory, with the
 // chords of each disc along the edges of the tile's columns and rows; then each thread adds to its pixels what the
 // discs bring there, splat after splat. At the end of a bin, the sums become a layer of each pixel, or a part of one.

@@ -1,7 +1,7 @@
 #include "gpu/selective/selective_tiles.h"
 
 #include "base/parallel.h"
-#include "gpu/selective/splat_arrays.h"
+#include "gpu/selective/splat_lists.h"
 
 #include <algorithm>
 #include <span>

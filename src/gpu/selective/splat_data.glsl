@@ -1,4 +1,4 @@
-// The data of the selective gather's kernel: bindings (splat_arrays.h), and what a work group shares.
+// The data of the selective gather's kernel: bindings (splat_lists.h), and what a work group shares.
 
 layout(binding = 0) readonly buffer Discs { double discs[]; };   // [splat]: x, y, radius
 layout(binding = 1) readonly buffer Shares { float shares[]; };  // [splat]: coverage, known, known times radius

@@ -1,5 +1,5 @@
 // The data of the warp's kernels: the samples of all views that some rows of the centre view need, the samples that
-// fall into each pixel of those rows, and the result. All belong to one stripe (warp_stripe.h).
+// fall into each pixel of those rows, and the result. All belong to one stripe (warp_frame.h).
 //
 // Arithmetic is in double precision and in the CPU's order, without fused multiply-add (`precise`), so that the samples
 // equal those of src/warp bit for bit.

@@ -4,7 +4,7 @@
 #include "base/matte.h"
 #include "deep/build.h"
 #include "gpu/device_worker.h"
-#include "gpu/warp/warp_stripe.h"
+#include "gpu/warp/warp_frame.h"
 #include "kernels/warp_layout.h"
 #include "warp/photo_consistency.h"
 #include "warp/reprojected_views.h"

@@ -1,4 +1,4 @@
-#include "gpu/selective/splat_arrays.h"
+#include "gpu/selective/splat_lists.h"
 
 #include "base/grid.h"
 #include "base/parallel.h"

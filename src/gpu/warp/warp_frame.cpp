@@ -1,4 +1,4 @@
-#include "gpu/warp/warp_stripe.h"
+#include "gpu/warp/warp_frame.h"
 
 #include "base/parallel.h"
 #include "kernels/warp_rules.h"
