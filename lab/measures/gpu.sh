@@ -1,7 +1,6 @@
 # Where the time of `--device` goes: milliseconds by --stats of the second of two pictures over one LDI, beside the CPU
 # with 2 threads and with all, in one run. $device is a part of the device's name (default: gpu; llvmpipe is Mesa's
-# software device), $sizes and $scenes may be others. 8 minutes with a GPU. Runs from an archive of tools/bundle.sh, too:
-#   bash gpu.sh ARCHIVE/bin
+# software device), $sizes and $scenes may be others. 8 minutes with a GPU. With an archive: bash gpu.sh ARCHIVE/bin
 . "$(dirname "$0")/common.inc" "$1"
 
 device=${device-gpu}
@@ -23,6 +22,7 @@ echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for size in ${sizes-1920x1080 3840x2160}; do
     for scene in ${scenes-fence macro mirror}; do
         trace "$scene.$size" $scene --size $size --spp 4
+        [ $scene = macro ] && focus=1:.42,2:.45 || focus=1:4,2:5
         mapfile -t views < <(five_views "$scene.$size" | tr ' ' '\n')
         for by in "cpu 2" "cpu" "$device"; do
             read -r at threads <<<"$by"
@@ -30,7 +30,7 @@ for size in ${sizes-1920x1080 3840x2160}; do
             words=(--device "$at" ${threads:+--threads "$threads"})
             row "warp of five views, $on" 'land|surfaces|differences|vote|emit' ldi-warp "${views[@]}" "${words[@]}" -o "$scene.$size.exr"
             for quality in normal final; do
-                row "pull, second frame, $quality, $on" lens dof-gather "$scene.$size.exr" --quality $quality "${words[@]}" --frames 1-2 --focus-distance 1:4,2:5 -o pull.#.exr
+                row "pull, second frame, $quality, $on" lens dof-gather "$scene.$size.exr" --quality $quality "${words[@]}" --frames 1-2 --focus-distance $focus -o pull.#.exr
             done
             [ $size != 1920x1080 ] || row "selective, $on" selective dof-gather "$scene.$size.exr" --method selective "${words[@]}" -o selective.exr
         done

@@ -1,100 +1,16 @@
-// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. Uploads wait
-// there for the next submission. Each submission waits for a fence.
-
 #include "gpu/device.h"
 
-#include "base/progress.h"
-#include "gpu/vulkan_instance.h"
+#include "gpu/vulkan_device.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace sparselens::gpu {
-
-using Copies = std::map<VkBuffer, std::vector<vk::BufferCopy>>;
-
-// The Vulkan parts of a Device, its buffers and its programs.
-struct Buffer::Memory {
-    vk::raii::DeviceMemory memory;
-    vk::raii::Buffer buffer;
-    Copies &waiting; // of all buffers
-
-    ~Memory() { waiting.erase(*buffer); }
-};
-
-struct Program::Pipeline {
-    const char *name;
-    std::uint32_t buffers;
-    vk::raii::DescriptorSetLayout set_layout;
-    vk::raii::PipelineLayout layout;
-    vk::raii::Pipeline pipeline;
-};
-
-struct Device::Vulkan {
-    VulkanInstance instance;
-    vk::raii::PhysicalDevice physical;
-    std::uint32_t family; // of queues that compute
-    vk::raii::Device device;
-    vk::raii::Queue queue;
-    vk::raii::CommandPool commands;
-    vk::PhysicalDeviceMemoryProperties memories;
-    double tick_ms = 0;                               // of the device's clock; 0: it has none
-    std::optional<vk::raii::QueryPool> begin_and_end; // of a program, in ticks
-    Copies waiting;                                   // from the staging buffer
-    std::size_t filled = 0;                           // bytes of it
-    std::shared_ptr<Buffer::Memory> staging;          // seen by host and device; made when it is first needed
-    std::byte *staged = nullptr;                      // its bytes as this process sees them
-    Progress times;
-
-    Vulkan(const DeviceInfo &info, const Watch &watch);
-
-    // Allocates in the first kind of memory that has the best of these sets of properties.
-    std::shared_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
-                                             std::initializer_list<vk::MemoryPropertyFlags> best_first);
-    const vk::raii::Buffer &staging_buffer();
-    double ticked_ms() const; // of the last program
-
-    // Submits the copies that wait, then the commands that record(command buffer) records, and waits until they are
-    // done.
-    template <typename Record>
-    void submit(const Record &record) {
-        const vk::raii::CommandBuffers buffers(
-            device, vk::CommandBufferAllocateInfo(*commands, vk::CommandBufferLevel::ePrimary, 1));
-        const vk::raii::CommandBuffer &command = buffers.front();
-        command.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-        for (const auto &[to, copies] : waiting) command.copyBuffer(*staging->buffer, vk::Buffer(to), copies);
-        order(command);
-        record(command);
-        order(command);
-        command.end();
-        const vk::raii::Fence done(device, vk::FenceCreateInfo());
-        queue.submit(vk::SubmitInfo({}, {}, *command), *done);
-        while (device.waitForFences(*done, true, ~std::uint64_t{0}) == vk::Result::eTimeout) {
-        }
-        waiting.clear();
-        filled = 0;
-    }
-
-private:
-    // Makes the commands after it see what the commands before it wrote.
-    static void order(const vk::raii::CommandBuffer &command) {
-        using Stage = vk::PipelineStageFlagBits;
-        using Access = vk::AccessFlagBits;
-        constexpr auto device_works = Stage::eComputeShader | Stage::eTransfer;
-        command.pipelineBarrier(device_works, device_works | Stage::eHost, {},
-                                vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
-                                                  Access::eShaderRead | Access::eShaderWrite |
-                                                      Access::eTransferRead | Access::eTransferWrite |
-                                                      Access::eHostRead),
-                                {}, {});
-    }
-};
 
 // Runs `work`. Turns what Vulkan throws into DeviceFailed.
 template <typename Work>
@@ -136,13 +52,6 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice &physical, std::uint
     return {physical, create};
 }
 
-vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, std::uint32_t buffers) {
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < buffers; ++i)
-        bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
-    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
-}
-
 } // namespace
 
 Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch)
@@ -153,16 +62,96 @@ Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch)
       memories(physical.getMemoryProperties()) {
     if (physical.getQueueFamilyProperties()[family].timestampValidBits < 64) return; // ticks may wrap round
     tick_ms = double(physical.getProperties().limits.timestampPeriod) * 1e-6;
-    begin_and_end.emplace(device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2));
+    clock.emplace(device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * most_timed));
 }
 
-double Device::Vulkan::ticked_ms() const {
-    std::array<std::uint64_t, 2> ticks{};
-    const vk::Result found = (*device).getQueryPoolResults(
-        **begin_and_end, 0, 2, sizeof(ticks), ticks.data(), sizeof(ticks[0]),
-        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait, *device.getDispatcher());
-    return found == vk::Result::eSuccess ? double(ticks[1] - ticks[0]) * tick_ms : 0;
+void Device::Vulkan::begin() {
+    if (recorded) return;
+    vk::raii::CommandBuffers one(
+        device, vk::CommandBufferAllocateInfo(*commands, vk::CommandBufferLevel::ePrimary, 1));
+    one.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    if (clock) one.front().resetQueryPool(**clock, 0, 2 * most_timed);
+    recorded.emplace(Recorded{std::move(one)});
 }
+
+void Device::Vulkan::order(const vk::raii::CommandBuffer &command) {
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    constexpr auto device_works = Stage::eComputeShader | Stage::eTransfer;
+    command.pipelineBarrier(device_works, device_works | Stage::eHost, {},
+                            vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
+                                              Access::eShaderRead | Access::eShaderWrite |
+                                                  Access::eTransferRead | Access::eTransferWrite |
+                                                  Access::eHostRead),
+                            {}, {});
+}
+
+void Device::Vulkan::submit() try {
+    if (!recorded) return;
+    const Recorded work = std::move(*recorded);
+    recorded.reset();
+    filled = 0;
+    const vk::raii::CommandBuffer &command = work.commands.front();
+    command.end();
+    const vk::raii::Fence done(device, vk::FenceCreateInfo());
+    std::optional<Timed> waiting;
+    if (!clock) waiting.emplace(times, "device");
+    queue.submit(vk::SubmitInfo({}, {}, *command), *done);
+    while (device.waitForFences(*done, true, ~std::uint64_t{0}) == vk::Result::eTimeout) {
+    }
+    if (!work.timed.empty()) take_times(work.timed);
+} catch (const vk::OutOfDeviceMemoryError &) {
+    throw vk::DeviceLostError("no memory to submit to it"); // less work at once would lack what was recorded
+}
+
+void Device::Vulkan::take_times(std::span<const char *const> timed) {
+    std::vector<std::uint64_t> ticks(2 * timed.size());
+    const vk::Result found = (*device).getQueryPoolResults(
+        **clock, 0, std::uint32_t(ticks.size()), ticks.size() * sizeof(std::uint64_t), ticks.data(),
+        sizeof(std::uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait,
+        *device.getDispatcher());
+    if (found != vk::Result::eSuccess) return;
+    for (std::size_t n = 0; n < timed.size(); ++n)
+        times.spent(timed[n], double(ticks[2 * n + 1] - ticks[2 * n]) * tick_ms);
+}
+
+std::shared_ptr<Buffer::Memory>
+Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
+                         std::initializer_list<vk::MemoryPropertyFlags> best_first) {
+    vk::raii::Buffer buffer(device, vk::BufferCreateInfo({}, bytes, usage));
+    const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
+    for (const vk::MemoryPropertyFlags wanted : best_first)
+        for (std::uint32_t type = 0; type < memories.memoryTypeCount; ++type) {
+            if (!(needs.memoryTypeBits >> type & 1)) continue;
+            if ((memories.memoryTypes[type].propertyFlags & wanted) != wanted) continue;
+            vk::raii::DeviceMemory memory(device, vk::MemoryAllocateInfo(needs.size, type));
+            buffer.bindMemory(*memory, 0);
+            return std::shared_ptr<Buffer::Memory>(new Buffer::Memory{std::move(memory), std::move(buffer)});
+        }
+    throw vk::OutOfDeviceMemoryError("no memory of the kind that is needed");
+}
+
+const vk::raii::Buffer &Device::Vulkan::staging_buffer() {
+    using Property = vk::MemoryPropertyFlagBits;
+    if (!staging)
+        staging = allocate(staging_bytes,
+                           vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst,
+                           {Property::eHostVisible | Property::eHostCoherent | Property::eHostCached,
+                            Property::eHostVisible | Property::eHostCoherent});
+    if (!staged) staged = static_cast<std::byte *>(staging->memory.mapMemory(0, staging_bytes));
+    return staging->buffer;
+}
+
+namespace {
+
+vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, std::uint32_t buffers) {
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < buffers; ++i)
+        bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+} // namespace
 
 Device::Device(const DeviceInfo &info, const Watch &watch) : info_(info), watch_(watch) {
     guarded(info_, [&] { vulkan_ = std::make_unique<Vulkan>(info_, watch_); });
@@ -204,70 +193,32 @@ void Device::run(const Program &program, std::span<const Buffer> buffers, std::s
         const Program::Pipeline &what = *program.pipeline;
         const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, what.buffers);
         using Flags = vk::DescriptorPoolCreateFlagBits;
-        const vk::raii::DescriptorPool pool(device,
-                                            vk::DescriptorPoolCreateInfo(Flags::eFreeDescriptorSet, 1, size));
-        const vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *what.set_layout));
+        vk::raii::DescriptorPool pool(device,
+                                      vk::DescriptorPoolCreateInfo(Flags::eFreeDescriptorSet, 1, size));
+        vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *what.set_layout));
+        const std::shared_ptr<const Vulkan::Bound> bound(new Vulkan::Bound{std::move(pool), std::move(sets)});
         std::vector<vk::DescriptorBufferInfo> whole;
         for (const Buffer &buffer : buffers) whole.emplace_back(*buffer.memory->buffer, 0, VK_WHOLE_SIZE);
+        const vk::DescriptorSet &set = *bound->sets.front();
         device.updateDescriptorSets(
-            vk::WriteDescriptorSet(*sets.front(), 0, 0, vk::DescriptorType::eStorageBuffer, {}, whole), {});
-        const auto &clock = vulkan_->begin_and_end;
-        const auto record = [&](const vk::raii::CommandBuffer &command) {
+            vk::WriteDescriptorSet(set, 0, 0, vk::DescriptorType::eStorageBuffer, {}, whole), {});
+        vulkan_->record(what.name, [&](const vk::raii::CommandBuffer &command) {
             constexpr auto compute = vk::PipelineBindPoint::eCompute;
-            if (clock) command.resetQueryPool(**clock, 0, 2);
-            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, **clock, 0);
             command.bindPipeline(compute, *what.pipeline);
-            command.bindDescriptorSets(compute, *what.layout, 0, *sets.front(), {});
+            command.bindDescriptorSets(compute, *what.layout, 0, set, {});
             if (!push.empty())
                 command.pushConstants<std::byte>(
                     *what.layout, vk::ShaderStageFlagBits::eCompute, 0,
                     vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
             command.dispatch(groups[0], groups[1], groups[2]);
-            if (clock) command.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, **clock, 1);
-        };
-        std::optional<Timed> waited;
-        if (!clock) waited.emplace(vulkan_->times, what.name);
-        vulkan_->submit(record);
-        if (clock) vulkan_->times.spent(what.name, vulkan_->ticked_ms());
+        });
+        auto &in_use = vulkan_->recorded->in_use;
+        in_use.insert(in_use.end(), {bound, program.pipeline});
+        for (const Buffer &buffer : buffers) in_use.push_back(buffer.memory);
     });
 }
 
 std::map<std::string, double> Device::take_times() { return vulkan_->times.take_times(); }
-
-namespace {
-
-constexpr std::size_t staging_bytes = std::size_t{16} << 20;
-
-using Property = vk::MemoryPropertyFlagBits;
-using Usage = vk::BufferUsageFlagBits;
-
-} // namespace
-
-std::shared_ptr<Buffer::Memory>
-Device::Vulkan::allocate(std::size_t bytes, vk::BufferUsageFlags usage,
-                         std::initializer_list<vk::MemoryPropertyFlags> best_first) {
-    vk::raii::Buffer buffer(device, vk::BufferCreateInfo({}, bytes, usage));
-    const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
-    for (const vk::MemoryPropertyFlags wanted : best_first)
-        for (std::uint32_t type = 0; type < memories.memoryTypeCount; ++type) {
-            if (!(needs.memoryTypeBits >> type & 1)) continue;
-            if ((memories.memoryTypes[type].propertyFlags & wanted) != wanted) continue;
-            vk::raii::DeviceMemory memory(device, vk::MemoryAllocateInfo(needs.size, type));
-            buffer.bindMemory(*memory, 0);
-            return std::shared_ptr<Buffer::Memory>(
-                new Buffer::Memory{std::move(memory), std::move(buffer), waiting});
-        }
-    throw vk::OutOfDeviceMemoryError("no memory of the kind that is needed");
-}
-
-const vk::raii::Buffer &Device::Vulkan::staging_buffer() {
-    if (!staging)
-        staging = allocate(staging_bytes, Usage::eTransferSrc | Usage::eTransferDst,
-                           {Property::eHostVisible | Property::eHostCoherent | Property::eHostCached,
-                            Property::eHostVisible | Property::eHostCoherent});
-    if (!staged) staged = static_cast<std::byte *>(staging->memory.mapMemory(0, staging_bytes));
-    return staging->buffer;
-}
 
 std::size_t Device::largest_buffer() const {
     const auto properties =
@@ -284,18 +235,32 @@ std::size_t Device::shared_bytes() const {
 }
 
 Buffer Device::buffer(std::size_t bytes) {
+    using Usage = vk::BufferUsageFlagBits;
     constexpr auto usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     const std::size_t some = std::max(bytes, std::size_t{4});
     return guarded(info_, [&] {
-        return Buffer{vulkan_->allocate(some, usage, {Property::eDeviceLocal, {}}), some};
+        if (some > largest_buffer()) throw vk::OutOfDeviceMemoryError("more than a buffer holds");
+        return Buffer{vulkan_->allocate(some, usage, {vk::MemoryPropertyFlagBits::eDeviceLocal, {}}), some};
     });
+}
+
+void Device::make_room(std::vector<Buffer> &buffers, std::span<const std::size_t> bytes) {
+    std::vector<Buffer> made = std::exchange(buffers, {});
+    made.resize(bytes.size());
+    for (std::size_t n = 0; n < made.size(); ++n) {
+        if (made[n].memory && made[n].bytes >= bytes[n]) continue;
+        made[n] = {};
+        made[n] = buffer(std::max(bytes[n], std::min(bytes[n] + bytes[n] / 8, largest_buffer())));
+    }
+    buffers = std::move(made);
 }
 
 void Device::fill(Buffer &buffer, std::uint32_t word) {
     guarded(info_, [&] {
-        vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
+        vulkan_->record("fill", [&](const vk::raii::CommandBuffer &command) {
             command.fillBuffer(*buffer.memory->buffer, 0, VK_WHOLE_SIZE, word);
         });
+        vulkan_->recorded->in_use.push_back(buffer.memory);
     });
 }
 
@@ -306,33 +271,63 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::size_t at)
 
 void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
                     std::size_t at) {
-    if (ranges.empty()) return;
-    const Timed uploading(vulkan_->times, "upload");
     guarded(info_, [&] {
-        vulkan_->staging_buffer();
-        for (auto [begin, end] : ranges)
-            while (begin < end) {
-                if (vulkan_->filled == staging_bytes) vulkan_->submit([](const auto &) {});
-                const std::size_t piece = std::min(staging_bytes - vulkan_->filled, end - begin);
-                std::memcpy(vulkan_->staged + vulkan_->filled, from.data() + begin, piece);
-                vulkan_->waiting[*to.memory->buffer].emplace_back(vulkan_->filled, at + begin, piece);
-                begin += piece;
-                vulkan_->filled += piece;
+        const vk::raii::Buffer &staging = vulkan_->staging_buffer();
+        std::size_t &filled = vulkan_->filled, done = 0; // of the first range
+        while (!ranges.empty()) {
+            if (filled == Vulkan::staging_bytes) vulkan_->submit();
+            std::vector<vk::BufferCopy> copies;
+            {
+                const Timed copying(vulkan_->times, "upload");
+                while (!ranges.empty() && filled < Vulkan::staging_bytes) {
+                    const std::size_t begin = ranges.front().begin + done,
+                                      piece = std::min(Vulkan::staging_bytes - filled,
+                                                       ranges.front().end - begin);
+                    if (piece > 0) copies.emplace_back(filled, at + begin, piece);
+                    if (piece > 0) std::memcpy(vulkan_->staged + filled, from.data() + begin, piece);
+                    filled += piece;
+                    done += piece;
+                    if (begin + piece < ranges.front().end) continue;
+                    ranges = ranges.subspan(1);
+                    done = 0;
+                }
             }
+            if (copies.empty()) continue;
+            vulkan_->record("upload", [&](const vk::raii::CommandBuffer &command) {
+                command.copyBuffer(*staging, *to.memory->buffer, copies);
+            });
+            vulkan_->recorded->in_use.push_back(to.memory);
+        }
     });
 }
 
-void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t at) {
-    const Timed downloading(vulkan_->times, "download");
+void Device::finish(std::span<const Download> results) {
+    struct Copy {
+        std::byte *to, *from;
+        std::size_t bytes;
+    };
     guarded(info_, [&] {
         const vk::raii::Buffer &staging = vulkan_->staging_buffer();
-        for (std::size_t done = 0; done < to.size(); done += staging_bytes) {
-            const std::size_t piece = std::min(staging_bytes, to.size() - done);
-            vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                command.copyBuffer(*from.memory->buffer, *staging, vk::BufferCopy(at + done, 0, piece));
-            });
-            std::memcpy(to.data() + done, vulkan_->staged, piece);
-        }
+        std::vector<Copy> copies;
+        const auto take = [&] {
+            vulkan_->submit();
+            const Timed copying(vulkan_->times, "download");
+            for (const Copy &copy : copies) std::memcpy(copy.to, copy.from, copy.bytes);
+            copies.clear();
+        };
+        for (const Download &result : results)
+            for (std::size_t done = 0; done < result.to.size(); done += copies.back().bytes) {
+                std::size_t &filled = vulkan_->filled;
+                if (filled == Vulkan::staging_bytes) take();
+                const vk::BufferCopy copy(result.at + done, filled,
+                                          std::min(Vulkan::staging_bytes - filled, result.to.size() - done));
+                vulkan_->record("download", [&](const vk::raii::CommandBuffer &command) {
+                    command.copyBuffer(*result.from.memory->buffer, *staging, copy);
+                });
+                copies.push_back({result.to.data() + done, vulkan_->staged + filled, copy.size});
+                filled += copy.size;
+            }
+        take();
     });
 }
 

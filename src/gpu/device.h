@@ -1,5 +1,5 @@
-// A device that computes: buffers in its memory, programs, and runs of programs. Calls return when the device is done;
-// what is uploaded goes to the device with the next call that needs it.
+// A device that computes: buffers in its memory, and programs that read and write them. Uploads and runs of programs are
+// recorded; finish() submits them at once, waits, and brings results back.
 //
 // A failure of the device throws DeviceFailed; the caller can then do the same work on the CPU.
 #pragma once
@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sparselens::gpu {
 
@@ -23,7 +24,7 @@ struct DeviceFailed : Error {
     using Error::Error;
 };
 
-// It has no memory left; less work at once may need less.
+// It has no memory left, or no buffer so large; less work at once may need less.
 struct DeviceFull : DeviceFailed {
     using DeviceFailed::DeviceFailed;
 };
@@ -46,8 +47,14 @@ struct ByteRange {
 // Storage that programs read and write. Copies of it are the same storage.
 struct Buffer {
     struct Memory;
-    std::shared_ptr<Memory> memory;
-    std::size_t bytes;
+    std::shared_ptr<Memory> memory = {};
+    std::size_t bytes = 0;
+};
+
+struct Download {
+    std::span<std::byte> to;
+    Buffer from;
+    std::size_t at = 0; // position in the buffer, bytes
 };
 
 struct Program {
@@ -72,23 +79,33 @@ public:
 
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);
+    // Makes each buffer hold at least so many bytes. A new one has some room to grow. If the device has no memory for
+    // one of them, all are given back.
+    void make_room(std::vector<Buffer> &buffers, std::span<const std::size_t> bytes);
+
+    // The following are recorded. Each sees what those before it wrote.
+
     // `at`: position in the buffer, bytes.
     void upload(Buffer &to, std::span<const std::byte> from, std::size_t at = 0);
     // Uploads ranges of `from`, each to the same position in the buffer, from `at` on.
     void upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
                 std::size_t at = 0);
-    void download(std::span<std::byte> to, const Buffer &from, std::size_t at = 0);
     void fill(Buffer &buffer, std::uint32_t word); // all of it
+    void run(const Program &program, std::span<const Buffer> buffers, std::span<const std::byte> push,
+             const std::array<std::uint32_t, 3> &groups);
+
+    // Submits what was recorded, waits until it is done, and brings these results. Operating systems end work that
+    // takes seconds, so work that takes long is finished piece by piece.
+    void finish(std::span<const Download> results = {});
 
     // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0. `name`: for the times.
     // `constants`: its specialization constants, from 0 on.
     Program program(const char *name, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                     std::uint32_t push_bytes, std::span<const std::uint32_t> constants = {});
-    void run(const Program &program, std::span<const Buffer> buffers, std::span<const std::byte> push,
-             const std::array<std::uint32_t, 3> &groups);
 
-    // Milliseconds since this was last called: of "upload" and "download" by the clock, and of each program by the
-    // device's own clock, if it has one.
+    // Milliseconds since this was last called: of "upload", "download", "fill" and each program, by the device's own
+    // clock. The time that the host copies to and from its staging buffer is added to uploads and downloads. A device
+    // without a clock has one time for all that it does: "device".
     std::map<std::string, double> take_times();
 
 private:

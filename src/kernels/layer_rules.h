@@ -71,8 +71,8 @@ inline constexpr uint ends_bin = 1, covers = 2;
 struct Push {
     double pixel_aspect;
     int data_x_min, data_y_min, data_x_max, data_y_max; // window: the first pixel and the last
-    uint first_tile, tile_count, pass, passes, splat_count, limit;
+    uint tile_count, pass, passes, splat_count, limit, unused;
 };
-static_assert(sizeof(Push) == 48 && offsetof(Push, limit) == 44);
+static_assert(sizeof(Push) == 48 && offsetof(Push, limit) == 40);
 
 } // namespace sparselens::splat_kernel

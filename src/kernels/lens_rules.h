@@ -191,9 +191,9 @@ inline constexpr uint holdout = 32;  // a holdout stays sharp
 inline constexpr uint with_partial = 64, with_facets = 128, with_solids = 256; // there are such samples
 
 struct Push {
-    uint first_tile, tile_count, sample_count, pass;
+    uint tile_count, sample_count, pass;
     float depth_at_1; // disparity at z = 1
 };
-static_assert(sizeof(Push) == 20 && offsetof(Push, depth_at_1) == 16);
+static_assert(sizeof(Push) == 16 && offsetof(Push, depth_at_1) == 12);
 
 } // namespace sparselens::lens_kernel

@@ -1,7 +1,8 @@
 #include "gpu/gpu_fixture.h"
+#include "gpu/warp/prefix_sums.h"
 
-#include <cstring>
 #include <numeric>
+#include <random>
 
 namespace sparselens::gpu {
 namespace {
@@ -15,9 +16,25 @@ TEST_F(DeviceTest, WhatIsUploadedIsDownloaded) {
     Buffer buffer = device.buffer(numbers.size() * 4);
     device.upload(buffer, std::as_bytes(std::span(numbers)));
     std::vector<std::uint32_t> back(numbers.size());
-    device.download(std::as_writable_bytes(std::span(back)), buffer);
+    device.finish(std::array{Download{std::as_writable_bytes(std::span(back)), buffer}});
     EXPECT_EQ(back, numbers);
     EXPECT_GE(device.largest_buffer(), std::size_t{1} << 27); // the minimum that Vulkan requires
+}
+
+TEST_F(DeviceTest, PrefixSumsAreThoseOfTheCpu) {
+    Device device(*info, watch());
+    PrefixSums sums(device);
+    std::minstd_rand random(1);
+    for (const std::size_t count : {1, 15, 4096, 4097, 1'500'000}) { // also more chunks than threads
+        std::vector<std::uint32_t> numbers(count), expected(count), back(count);
+        for (std::uint32_t &number : numbers) number = std::uint32_t(random() % 100);
+        std::exclusive_scan(numbers.begin(), numbers.end(), expected.begin(), 0u);
+        Buffer buffer = device.buffer(count * 4);
+        device.upload(buffer, std::as_bytes(std::span(numbers)));
+        sums.run(buffer, count);
+        device.finish(std::array{Download{std::as_writable_bytes(std::span(back)), buffer}});
+        EXPECT_EQ(back, expected) << count;
+    }
 }
 
 TEST_F(DeviceTest, ADeviceThatIsNotThereFails) {

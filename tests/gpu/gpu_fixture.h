@@ -18,6 +18,8 @@
 
 namespace sparselens::gpu {
 
+inline constexpr const char *not_enough = "the device has not enough memory";
+
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -45,8 +47,9 @@ protected:
     using Work = std::function<DeviceReport()>;
     // Runs the work again and again: each time, Vulkan fails from a later call on.
     void expect_bears_failures(const Work &work);
-    // Runs it on a device that has so many MB of memory.
-    DeviceReport with_memory(std::size_t mb, const Work &work);
+    // Runs it on a device that has 64 MB of memory; the second expects that this is not enough, and says so.
+    DeviceReport with_little_memory(const Work &work);
+    void expect_exceeds_memory(const Work &work);
 
     std::optional<DeviceInfo> info;
     std::vector<std::string> said;

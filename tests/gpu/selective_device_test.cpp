@@ -103,7 +103,7 @@ TEST_F(SelectiveDeviceTest, StripesMakeTheSamePicture) {
     EXPECT_EQ(gather(ldi, lens, {.device = tiny.get()}).values, expected.values);
     const TileReport did = tiny->take_report();
     EXPECT_EQ(did.on_device, 0u);
-    EXPECT_EQ(did.on_cpu.at("more samples than its buffers hold"), 8u);
+    EXPECT_EQ(did.on_cpu.at(not_enough), 8u);
 }
 
 TEST_F(SelectiveDeviceTest, WhatTakesLongTakesPasses) {

@@ -39,7 +39,7 @@ void write_pixel(uint to, Sum sum, float total) {
 }
 
 void main() {
-    const uint t = push.first_tile + gl_WorkGroupID.x / 4, quarter = gl_WorkGroupID.x % 4, group = gl_WorkGroupID.y;
+    const uint t = gl_WorkGroupID.x / 4, quarter = gl_WorkGroupID.x % 4, group = gl_WorkGroupID.y;
     const Tile tile = tiles[t];
     corner = ivec2(quarter % 2, quarter / 2) * size;
     first = vec2(tile.x, tile.y);

@@ -53,18 +53,11 @@ std::vector<ByteRange> changes(Bytes before, Bytes now) {
     return ranges;
 }
 
-// A buffer with some room to grow, because lists may be a little larger in the next frame.
-Buffer buffer_for(Device &device, std::size_t bytes) {
-    return device.buffer(std::max(bytes, std::min(bytes + bytes / 8, device.largest_buffer())));
-}
-
 constexpr std::uint32_t code[] = {
 #include <lens_tile.comp.inc>
 };
 
-// Tests of a sample by a lens point that are submitted at once. Operating systems end work that takes seconds.
-constexpr double work_at_once = 2e9;
-constexpr double turns_in_pass = 1e6; // of loops, for the same reason
+constexpr std::size_t tiles_at_once = 512; // because of the memory that their lists take
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
 std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 
@@ -94,17 +87,6 @@ std::vector<LensSample> in_groups(std::span<const LensSample> lens, std::size_t 
     return all;
 }
 
-// Tests of a sample by a lens point that one of the tile's passes takes.
-double work_of(const SceneArrays &scene, const TileLists &lists, const lens_kernel::Tile &tile) {
-    double samples = 0;
-    for (const std::uint32_t partial : tile.partial_count) samples += partial;
-    for (std::uint32_t n = 0; n < tile.block_count; ++n) {
-        const lens_kernel::Block &block = scene.blocks[lists.blocks[tile.blocks + n]];
-        samples += block.opaque_end - block.begin;
-    }
-    return samples * std::min(tile.lens_count, tile.lens_in_pass);
-}
-
 std::uint32_t passes_of(std::span<const lens_kernel::Tile> tiles) {
     std::uint32_t passes = 1;
     for (const lens_kernel::Tile &tile : tiles)
@@ -115,15 +97,14 @@ std::uint32_t passes_of(std::span<const lens_kernel::Tile> tiles) {
 } // namespace
 
 const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t points) {
-    if (const auto made = programs_.find(rules); made != programs_.end()) return made->second;
     const std::array constants{threads_on(device_), points, rules};
-    return programs_.emplace(rules, device_.program("lens", code, 19, sizeof(lens_kernel::Push), constants))
-        .first->second;
+    if (!programs_.contains(rules))
+        programs_.emplace(rules, device_.program("lens", code, 19, sizeof(lens_kernel::Push), constants));
+    return programs_.at(rules);
 }
 
 void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done) {
-    if (!worker_.holds(largest_array(scene), all.size())) return;
     const std::uint32_t rules = rules_of(scene, all), points = points_at_once(device_, rules);
     std::map<const LensSample *, std::vector<LensSample>> lens; // by those of the tasks
     std::vector<TileTask> taken;
@@ -144,31 +125,28 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
     OnDevice<SceneArrays> &from = scenes_[scene.coarse ? 1 : 0];
     bring(from, arrays_of(scene));
     const Program &program = program_for(rules, points);
-    const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
-        return tasks_that_fit(scene, tasks.subspan(begin, most), bytes);
-    };
     const auto work = [&](std::size_t begin, std::size_t count) -> const char * {
-        bring(lists_, lists_of(scene, tasks.subspan(begin, count), points,
-                               std::min(turns_in_pass, device_.most_turns())));
+        bring(lists_, lists_of(scene, tasks.subspan(begin, count), points, device_.most_turns()));
         gather_stripe(scene, program, from,
                       [&](std::size_t t, const TilePicture &picture) { done(numbers[begin + t], picture); });
         return nullptr;
     };
-    worker_.by_stripes(tasks.size(), 1, fit, work);
+    worker_.by_stripes(tasks.size(), tiles_at_once, work);
 }
 
 template <class Arrays>
 void LensTilesOnDevice::bring(OnDevice<Arrays> &there, Arrays arrays) {
     OnDevice<Arrays> next = std::exchange(there, {}); // after a failure, nothing is there
     const auto before = parts_of(next.arrays), now = parts_of(arrays);
-    for (std::size_t part = 0; part < now.size(); ++part) {
-        const bool fits = part < next.buffers.size() && now[part].size() <= next.buffers[part].bytes;
-        if (part == next.buffers.size()) next.buffers.emplace_back();
-        if (!fits) {
-            next.buffers[part] = {}; // gives its memory back first
-            next.buffers[part] = buffer_for(device_, now[part].size());
-        }
-        const std::vector<ByteRange> changed = changes(fits ? before[part] : Bytes{}, now[part]);
+    std::array<std::size_t, std::tuple_size_v<decltype(now)>> sizes;
+    std::array<bool, sizes.size()> stays{};
+    for (std::size_t part = 0; part < sizes.size(); ++part) {
+        sizes[part] = now[part].size();
+        stays[part] = part < next.buffers.size() && sizes[part] <= next.buffers[part].bytes;
+    }
+    device_.make_room(next.buffers, sizes);
+    for (std::size_t part = 0; part < sizes.size(); ++part) {
+        const std::vector<ByteRange> changed = changes(stays[part] ? before[part] : Bytes{}, now[part]);
         device_.upload(next.buffers[part], now[part], changed);
         for (const ByteRange &range : changed) worker_.report.uploaded += range.end - range.begin;
     }
@@ -185,23 +163,20 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &p
     std::vector<Buffer> buffers = from.buffers;
     if (from.arrays.shown.empty()) buffers[shown] = buffers[cocs];
     buffers.insert(buffers.end(), lists_.buffers.begin(), lists_.buffers.end());
-    const Buffer values = device_.buffer(all * 4 * sizeof(float)),
-                 known = device_.buffer(all * sizeof(float)),
-                 sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
-    buffers.insert(buffers.end(), {values, known, sums});
-    for (std::uint32_t pass = 0; pass < passes; ++pass)
-        for (std::uint32_t first = 0, end = 0; first < tiles.size(); first = end) {
-            for (double work = 0; end < tiles.size() && (end == first || work < work_at_once); ++end)
-                work += work_of(from.arrays, lists_.arrays, tiles[end]);
-            const lens_kernel::Push push{first, std::uint32_t(tiles.size()),
-                                         std::uint32_t(from.arrays.alphas.size()), pass,
-                                         float(scene.held_out.depth_at_1)};
-            device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
-                        {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});
-        }
+    const std::array sizes{all * 4 * sizeof(float), all * sizeof(float),
+                           passes > 1 ? all * 8 * sizeof(float) : 0};
+    device_.make_room(made_, sizes);
+    buffers.insert(buffers.end(), made_.begin(), made_.end());
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+        if (pass > 0) device_.finish();
+        const lens_kernel::Push push{std::uint32_t(tiles.size()), std::uint32_t(from.arrays.alphas.size()),
+                                     pass, float(scene.held_out.depth_at_1)};
+        device_.run(program, buffers, std::as_bytes(std::span(&push, 1)),
+                    {lens_kernel::quarters * push.tile_count, std::uint32_t(groups), 1});
+    }
     std::vector<float> value(all * 4), knowns(all);
-    device_.download(std::as_writable_bytes(std::span(value)), values);
-    device_.download(std::as_writable_bytes(std::span(knowns)), known);
+    device_.finish(std::array{Download{std::as_writable_bytes(std::span(value)), made_[0]},
+                              Download{std::as_writable_bytes(std::span(knowns)), made_[1]}});
     parallel_for(tiles.size(), [&](std::size_t t) {
         done(t,
              {&value[t * tile_pixels * 4], &knowns[t * tile_pixels], groups, tiles.size() * tile_pixels * 4});

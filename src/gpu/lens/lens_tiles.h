@@ -1,5 +1,5 @@
-// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU scenes that are larger than a
-// buffer, and tiles for which one lens point takes more turns of loops than the device allows.
+// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU tiles for which one lens point
+// takes more turns of loops than the device allows.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -42,6 +42,7 @@ private:
     std::map<std::uint32_t, Program> programs_;   // by their rules; made when they are first needed
     std::array<OnDevice<SceneArrays>, 2> scenes_; // the picture's, and the last coarse one
     OnDevice<TileLists> lists_;                   // of the last stripe
+    std::vector<Buffer> made_;                    // from it: values, what is known, sums between passes
 };
 
 } // namespace sparselens::gpu

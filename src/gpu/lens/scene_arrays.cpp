@@ -11,11 +11,6 @@ namespace {
 // The number of samples or facets. Those of a block follow those of the block before.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
-// The number of samples that have colours.
-std::size_t coloured(const GatherScene &scene) {
-    return count_of(scene.samples) + count_of(scene.fillers.samples);
-}
-
 // Places samples from `first` on. `hiding`: for the upper halves of keys.
 void place(SceneArrays &arrays, const BlockedSamples &from, std::size_t first, std::uint32_t hiding) {
     parallel_ranges(count_of(from), 4096, [&](std::size_t begin, std::size_t end) {
@@ -53,14 +48,9 @@ void place_facets(SceneArrays &arrays, const PlacedFacets &from) {
 
 } // namespace
 
-std::size_t largest_array(const GatherScene &scene) {
-    return std::max(coloured(scene) * scene.colours.groups * 4 * sizeof(float),
-                    count_of(scene.facets) * 3 * sizeof(std::uint32_t));
-}
-
 SceneArrays arrays_of(const GatherScene &scene) {
     const BlockedSamples &samples = scene.samples, &fillers = scene.fillers.samples, &solids = scene.solids;
-    const std::size_t count = coloured(scene), first_filler = count_of(samples);
+    const std::size_t first_filler = count_of(samples), count = first_filler + count_of(fillers);
     SceneArrays arrays;
     arrays.places.resize(count + count_of(solids));
     arrays.uppers.resize(arrays.places.size());

@@ -27,7 +27,4 @@ struct SceneArrays {
 
 SceneArrays arrays_of(const GatherScene &scene);
 
-// The bytes of the largest array.
-std::size_t largest_array(const GatherScene &scene);
-
 } // namespace sparselens::gpu

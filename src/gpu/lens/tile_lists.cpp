@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace sparselens::gpu {
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int rows_a_word = 2;
 constexpr std::size_t words_a_lens_point = tile_size / rows_a_word;
-constexpr std::size_t words_a_part = 3;
 
 std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
     std::size_t count = 0;
@@ -33,13 +33,9 @@ Imath::Box2i pixels_of(const GatherScene &scene, const TileTask &task) { // EXR 
     return {first, first + Imath::V2i(tile_size - 1)};
 }
 
-std::size_t column_words(const GatherScene &scene, const TileTask &task) {
-    return scene.cat_eye() ? task.lens.size() * words_a_lens_point : 0;
-}
-
 std::vector<std::uint32_t> columns_of(const GatherScene &scene, const TileTask &task) {
     const Imath::V2i first = pixels_of(scene, task).min;
-    std::vector<std::uint32_t> words(column_words(scene, task));
+    std::vector<std::uint32_t> words(scene.cat_eye() ? task.lens.size() * words_a_lens_point : 0);
     for (std::size_t word = 0; word < words.size(); ++word)
         for (int row = 0; row < rows_a_word; ++row) {
             const int y = int(word % words_a_lens_point) * rows_a_word + row;
@@ -50,16 +46,13 @@ std::vector<std::uint32_t> columns_of(const GatherScene &scene, const TileTask &
     return words;
 }
 
-std::size_t holdout_words(const GatherScene &scene, const TileTask &task) {
-    if (!scene.held_out.by) return 0;
-    return tile_pixels + 1 + words_a_part * scene.held_out.by->parts_in(pixels_of(scene, task));
-}
-
 std::vector<std::uint32_t> holdout_of(const GatherScene &scene, const TileTask &task) {
     std::vector<std::uint32_t> words;
     if (!scene.held_out.by) return words;
-    const Imath::V2i first = pixels_of(scene, task).min;
+    const Imath::Box2i pixels = pixels_of(scene, task);
+    const Imath::V2i first = pixels.min;
     std::vector<Holdout::Part> parts;
+    parts.reserve(scene.held_out.by->parts_in(pixels));
     for (int y = 0; y < tile_size; ++y)
         for (int x = 0; x < tile_size; ++x) {
             words.push_back(std::uint32_t(parts.size()));
@@ -170,23 +163,6 @@ Tile list_tile(TileLists &lists, const GatherScene &scene, const TileTask &task,
 
 } // namespace
 
-std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
-    std::size_t listed = 0, partial = 0, lens = 0, columns = 0, held_out = 0;
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const TileTask &task = tasks[t];
-        listed += task.samples.size() + task.fillers.size() + task.facets.size() + task.solids.size();
-        partial += partial_count(scene.samples, task);
-        if (!shares_lens(tasks, t)) lens += task.lens.size();
-        columns += column_words(scene, task);
-        held_out += holdout_words(scene, task);
-        const std::size_t most =
-            std::max({listed * 4, partial * 4 * quarters, columns * 4, held_out * 4, lens * sizeof(Lens),
-                      (t + 1) * tile_pixels * scene.colours.groups * 32});
-        if (most > bytes) return t;
-    }
-    return tasks.size();
-}
-
 double turns_of(const GatherScene &scene, const TileTask &task) {
     const auto turns = [](const auto &blocks, std::span<const std::uint32_t> of) {
         double sum = 0;
@@ -200,11 +176,15 @@ double turns_of(const GatherScene &scene, const TileTask &task) {
 
 TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, std::uint32_t points,
                    double most_turns) {
+    constexpr double turns_at_once = 6e7, most_of_tile = 1e6; // of all tiles, and of each
     std::vector<LookedUp> looked_up(tasks.size());
+    std::vector<double> turns(tasks.size());
     parallel_for(tasks.size(), [&](std::size_t t) {
+        turns[t] = turns_of(scene, tasks[t]);
         looked_up[t] = {columns_of(scene, tasks[t]), holdout_of(scene, tasks[t]),
                         partial_of(scene.samples, tasks[t])};
     });
+    const double groups = turns_at_once / (points * std::accumulate(turns.begin(), turns.end(), 0.0));
     TileLists lists;
     std::uint32_t lens = 0;
     float weight = 0;
@@ -218,8 +198,9 @@ TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, st
         }
         tile.lens = lens;
         tile.weight = weight;
-        const double at_once = std::clamp(most_turns / turns_of(scene, tasks[t]), 1.0, 1e6);
-        tile.lens_in_pass = points * std::uint32_t(at_once);
+        const double in_pass =
+            std::clamp(std::min(std::min(most_turns, most_of_tile) / turns[t], groups), 1.0, 1e6);
+        tile.lens_in_pass = points * std::uint32_t(in_pass);
     }
     return lists;
 }

@@ -1,5 +1,4 @@
-// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it. A picture is cut
-// into stripes of tiles, because the lists or the results of all tiles may be larger than a buffer of the device.
+// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -27,14 +26,11 @@ struct TileLists {
     std::vector<lens_kernel::Tile> tiles; // one per task
 };
 
-// How many of the tasks, from the first, fit into buffers of that many bytes.
-std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
-
 // How many turns of the program's loops some lens points, taken at once, of the tile take; an upper estimate.
 double turns_of(const GatherScene &scene, const TileTask &task);
 
-// The lens points of each task are taken `points` at a time. `most_turns`: in a pass; at least turns_of() for each
-// task.
+// The lens points of each task are taken `points` at a time, in passes, because operating systems end work that takes
+// seconds. `most_turns`: of a work group in a pass; at least turns_of() for each task.
 TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, std::uint32_t points,
                    double most_turns);
 

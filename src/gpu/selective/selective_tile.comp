@@ -1,10 +1,10 @@
 #version 460
 // The selective gather of a tile: the same as src/dof/selective/selective.cpp, with the same sums in the same order.
 //
-// A work group takes the pieces that its tile lists (splat_lists.h), front to back. If the discs of a block cover the tile, the
-// sums of the block are all that it needs. Of other blocks, it brings a chunk of splats into shared memory, with the
-// chords of each disc along the edges of the tile's columns and rows; then each thread adds to its pixels what the
-// discs bring there, splat after splat. At the end of a bin, the sums become a layer of each pixel, or a part of one.
+// A work group takes the pieces that its tile lists (splat_lists.h), front to back. If the discs of a block cover the
+// tile, the sums of the block are all that it needs. Of other blocks, it brings a chunk of splats into shared memory,
+// with the chords of each disc along the edges of the tile's columns and rows; then each thread adds to its pixels what
+// the discs bring there, splat after splat. At the end of a bin, the sums become a layer of each pixel, or a part of one.
 // Every sum belongs to one thread.
 //
 // Work that takes long is cut into passes: all state of a thread goes to buffers at the end of a pass and comes back at
@@ -80,10 +80,13 @@ void end_pass() {
 }
 
 void add_uniform(uint block) {
-    const uint at = (block * gl_NumWorkGroups.y + group) * bin_sums;
+    const uint at = block * value_size;
+    dvec4 more = dvec4(0);
+    for (uint k = 0; k < 4; ++k)
+        if (has_colour(k)) more[k] = sums[at + colour_at(k)];
     precise const double coverage = uniform_.coverage + sums[at], known = uniform_.known + sums[at + 1],
-                         radius = uniform_.radius + sums[at + 6];
-    precise const dvec4 light = uniform_.light + dvec4(sums[at + 2], sums[at + 3], sums[at + 4], sums[at + 5]);
+                         radius = uniform_.radius + sums[at + value_size - 1];
+    precise const dvec4 light = uniform_.light + more;
     uniform_ = Bin(coverage, known, radius, light);
 }
 
@@ -104,7 +107,7 @@ void add_splat(uint s, uint j) {
 }
 
 void main() {
-    const uint t = push.first_tile + gl_WorkGroupID.x;
+    const uint t = gl_WorkGroupID.x;
     group = gl_WorkGroupID.y;
     place = t * gl_NumWorkGroups.y + group;
     tile = tiles[t];

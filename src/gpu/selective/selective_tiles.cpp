@@ -1,9 +1,11 @@
 #include "gpu/selective/selective_tiles.h"
 
 #include "base/parallel.h"
+#include "dof/selective/splats.h"
 #include "gpu/selective/splat_lists.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,87 +17,102 @@ constexpr std::uint32_t code[] = {
 #include <selective_tile.comp.inc>
 };
 
-constexpr std::uint32_t bindings = 14;
-// Turns of its loops that a work group takes in a pass, and that all work groups submitted at once take. Operating
-// systems end work that takes seconds.
-constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
+constexpr std::uint32_t bindings = 13;
+constexpr std::size_t tiles_at_once = 256; // because of the memory that their layers take
+constexpr double steps_in_pass = 5e4;      // of a tile
 
-// Adds buffers with these arrays, in the order of the shader's bindings.
-template <class... Arrays>
-void upload(DeviceWorker &worker, std::vector<Buffer> &all, const Arrays &...arrays) {
-    const auto add = [&](std::span<const std::byte> bytes) {
-        all.push_back(worker.device.buffer(bytes.size()));
-        worker.device.upload(all.back(), bytes);
-        worker.report.uploaded += bytes.size();
-    };
-    (add(std::as_bytes(std::span(arrays))), ...);
-}
+using Bytes = std::span<const std::byte>;
 
-void run(Device &device, const Program &program, const SplatScene &scene, const SplatArrays &from,
-         const SplatLists &lists, std::span<const Buffer> all) {
-    const auto tiles = std::uint32_t(lists.tiles.size());
-    for (std::uint32_t pass = 0; pass < lists.passes; ++pass)
-        for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
-            for (double steps = 0; end < tiles && (end == first || steps < steps_at_once); ++end)
-                steps += lists.steps[end];
-            const splat_kernel::Push push{scene.pixel_aspect,
-                                          scene.data.min.x,
-                                          scene.data.min.y,
-                                          scene.data.max.x,
-                                          scene.data.max.y,
-                                          first,
-                                          tiles,
-                                          pass,
-                                          std::uint32_t(lists.passes),
-                                          std::uint32_t(from.discs.size() / 3),
-                                          std::uint32_t(scene.layers)};
-            device.run(program, all, std::as_bytes(std::span(&push, 1)),
-                       {end - first, std::uint32_t(from.groups), 1});
+// The bytes of some arrays, which follow one another in a buffer.
+std::vector<Bytes> joined_bytes(const auto &...arrays) { return {std::as_bytes(std::span(arrays))...}; }
+
+// Uploads to buffers, in the order of the shader's bindings.
+void upload(DeviceWorker &worker, std::vector<Buffer> &to, std::span<const std::vector<Bytes>> parts) {
+    std::vector<std::size_t> sizes(parts.size());
+    for (std::size_t n = 0; n < parts.size(); ++n)
+        for (const Bytes &array : parts[n]) sizes[n] += array.size();
+    worker.device.make_room(to, sizes);
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        std::size_t at = 0;
+        for (const Bytes &array : parts[n]) {
+            worker.device.upload(to[n], array, at);
+            at += array.size();
         }
+        worker.report.uploaded += at;
+    }
 }
 
 } // namespace
 
+const Program &SelectiveTilesOnDevice::program_for(std::size_t colours) {
+    const std::array constants{std::uint32_t(colours)};
+    if (!programs_.contains(colours))
+        programs_.emplace(colours, worker_.device.program("selective", code, bindings,
+                                                          sizeof(splat_kernel::Push), constants));
+    return programs_.at(colours);
+}
+
 void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const SplatTask> tasks,
                                     const std::function<void(std::size_t, const SplatPicture &)> &done) {
-    Device &device = worker_.device;
-    if (!device.info().float64) {
+    const double most_steps = worker_.device.most_turns();
+    if (!worker_.device.info().float64) {
         worker_.report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
         return;
     }
-    if (!worker_.holds(largest_array(scene.splats), tasks.size())) return;
-    if (!program_) program_.emplace(device.program("selective", code, bindings, sizeof(splat_kernel::Push)));
-    const SplatArrays from = arrays_of(scene.splats);
-    std::vector<Buffer> placed;
-    upload(worker_, placed, from.discs, from.shares, from.colours, from.pieces, from.sums);
-    const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
-        return tasks_that_fit(scene, tasks.subspan(begin, most), bytes);
-    };
+    const SplatBlocks &splats = scene.splats;
+    const SplatPieces pieces = cut(splats);
+    upload(worker_, splats_,
+           std::array{joined_bytes(splats.x, splats.y, splats.radius), joined_bytes(splats.values),
+                      joined_bytes(pieces.pieces), joined_bytes(splats.sums)});
     const auto work = [&](std::size_t begin, std::size_t count) -> const char * {
-        const SplatLists lists = lists_of(scene, from, tasks.subspan(begin, count),
-                                          std::min(steps_in_pass, device.most_turns() * 2 / 3));
-        if (*std::ranges::max_element(lists.steps) > device.most_turns())
-            return "more steps than the device takes";
-        std::vector<Buffer> all = placed;
-        upload(worker_, all, lists.pieces, lists.cuts, lists.tiles);
-        const SplatState state = state_of(scene, count);
-        const std::size_t pixels = count * splat_kernel::pixels;
-        for (const std::size_t bytes :
-             {state.layers * sizeof(double), state.gaps * sizeof(std::int32_t),
-              state.states * sizeof(std::int32_t), lists.passes > 1 ? state.running * sizeof(double) : 0,
-              from.groups * pixels * 4 * sizeof(float), pixels * sizeof(float)})
-            all.push_back(device.buffer(bytes));
-        run(device, *program_, scene, from, lists, all);
-        std::vector<float> values(from.groups * pixels * 4), alphas(pixels);
-        device.download(std::as_writable_bytes(std::span(values)), all[bindings - 2]);
-        device.download(std::as_writable_bytes(std::span(alphas)), all[bindings - 1]);
-        parallel_for(count, [&](std::size_t t) {
-            done(begin + t,
-                 {&values[t * splat_kernel::pixels * 4], &alphas[t * splat_kernel::pixels], pixels * 4});
-        });
+        const SplatLists lists =
+            lists_of(scene, pieces, tasks.subspan(begin, count), std::min(steps_in_pass, most_steps * 2 / 3));
+        if (lists.steps > most_steps) return "more steps than the device takes";
+        upload(worker_, lists_,
+               std::array{joined_bytes(lists.pieces), joined_bytes(lists.cuts), joined_bytes(lists.tiles)});
+        gather_stripe(scene, lists,
+                      [&](std::size_t t, const SplatPicture &picture) { done(begin + t, picture); });
         return nullptr;
     };
-    worker_.by_stripes(tasks.size(), 1, fit, work);
+    worker_.by_stripes(tasks.size(), tiles_at_once, work);
+}
+
+void SelectiveTilesOnDevice::gather_stripe(
+    const SplatScene &scene, const SplatLists &lists,
+    const std::function<void(std::size_t, const SplatPicture &)> &done) {
+    const std::size_t count = lists.tiles.size(), groups = groups_of(scene.splats),
+                      pixels = count * splat_kernel::pixels;
+    const SplatState state = state_of(scene, count);
+    Device &device = worker_.device;
+    device.make_room(made_, std::array{state.layers * sizeof(double), state.gaps * sizeof(std::int32_t),
+                                       state.states * sizeof(std::int32_t),
+                                       lists.passes > 1 ? state.running * sizeof(double) : 0,
+                                       groups * pixels * 4 * sizeof(float), pixels * sizeof(float)});
+    std::vector<Buffer> all;
+    for (const auto *some : {&splats_, &lists_, &made_}) all.insert(all.end(), some->begin(), some->end());
+    const Imath::Box2i &data = scene.data;
+    for (std::uint32_t pass = 0; pass < lists.passes; ++pass) {
+        if (pass > 0) device.finish();
+        const splat_kernel::Push push{scene.pixel_aspect,
+                                      data.min.x,
+                                      data.min.y,
+                                      data.max.x,
+                                      data.max.y,
+                                      std::uint32_t(count),
+                                      pass,
+                                      std::uint32_t(lists.passes),
+                                      std::uint32_t(scene.splats.x.size()),
+                                      std::uint32_t(scene.layers),
+                                      0};
+        device.run(program_for(scene.splats.colours), all, std::as_bytes(std::span(&push, 1)),
+                   {push.tile_count, std::uint32_t(groups), 1});
+    }
+    std::vector<float> values(groups * pixels * 4), alphas(pixels);
+    device.finish(std::array{Download{std::as_writable_bytes(std::span(values)), all[bindings - 2]},
+                             Download{std::as_writable_bytes(std::span(alphas)), all[bindings - 1]}});
+    parallel_for(count, [&](std::size_t t) {
+        done(t, {&values[t * splat_kernel::pixels * 4], &alphas[t * splat_kernel::pixels], pixels * 4});
+    });
 }
 
 } // namespace sparselens::gpu

@@ -1,13 +1,16 @@
-// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU splats that are more
-// than a buffer holds, and all tiles if the device has no numbers of 64 bits.
+// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves all tiles to the CPU if the device
+// has no numbers of 64 bits.
 #pragma once
 
 #include "dof/device/tile_device.h"
 #include "gpu/device_worker.h"
 
-#include <optional>
+#include <map>
+#include <vector>
 
 namespace sparselens::gpu {
+
+struct SplatLists;
 
 class SelectiveTilesOnDevice {
 public:
@@ -18,8 +21,13 @@ public:
                 const std::function<void(std::size_t, const SplatPicture &)> &done);
 
 private:
+    const Program &program_for(std::size_t colours);
+    void gather_stripe(const SplatScene &scene, const SplatLists &lists,
+                       const std::function<void(std::size_t, const SplatPicture &)> &done);
+
     DeviceWorker &worker_;
-    std::optional<Program> program_; // made when it is first needed
+    std::map<std::size_t, Program> programs_;   // by the number of colours; made when they are first needed
+    std::vector<Buffer> splats_, lists_, made_; // in the order of the bindings; kept for later pictures
 };
 
 } // namespace sparselens::gpu

@@ -1,23 +1,24 @@
 // The data of the selective gather's kernel: bindings (splat_lists.h), and what a work group shares.
 
-layout(binding = 0) readonly buffer Discs { double discs[]; };   // [splat]: x, y, radius
-layout(binding = 1) readonly buffer Shares { float shares[]; };  // [splat]: coverage, known, known times radius
-layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][splat]
-layout(binding = 3) readonly buffer Pieces { Piece pieces[]; };
-// [block][group][bin_sums], divided by disc areas
-layout(binding = 4) readonly buffer Sums { double sums[]; };
-layout(binding = 5) readonly buffer Lists { uint lists[]; };     // what a tile visits, front to back
-layout(binding = 6) readonly buffer Cuts { uint cuts[]; };       // [tile][pass]: where the pass begins in lists[]
-layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
+layout(binding = 0) readonly buffer Discs { double discs[]; };             // [x, y, radius][splat]
+// [splat]: coverage, known, colours, known times radius
+layout(binding = 1) readonly buffer SplatValues { float splat_values[]; };
+layout(binding = 2) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 3) readonly buffer Sums { double sums[]; };               // [block]: the same, divided by disc areas
+layout(binding = 4) readonly buffer Lists { uint lists[]; };               // what a tile visits, front to back
+layout(binding = 5) readonly buffer Cuts { uint cuts[]; };                 // [tile][pass]: where the pass begins in lists[]
+layout(binding = 6) readonly buffer Tiles { Tile tiles[]; };
 // Kept between passes: [tile][group], then [layer][sum][pixel], [layer][pixel], [count, last bin][pixel], and
 // [sum][pixel] followed by what all pixels of the tile get.
-layout(binding = 8) buffer Layers { double layers[]; };
-layout(binding = 9) buffer Gaps { int gaps[]; };
-layout(binding = 10) buffer States { int states[]; };
-layout(binding = 11) buffer Running { double running[]; };
-layout(binding = 12) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel]
-layout(binding = 13) writeonly buffer Alphas { float alphas[]; }; // [tile][pixel]
+layout(binding = 7) buffer Layers { double layers[]; };
+layout(binding = 8) buffer Gaps { int gaps[]; };
+layout(binding = 9) buffer States { int states[]; };
+layout(binding = 10) buffer Running { double running[]; };
+layout(binding = 11) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel]
+layout(binding = 12) writeonly buffer Alphas { float alphas[]; }; // [tile][pixel]
 layout(push_constant) uniform Pushed { Push push; };
+layout(constant_id = 0) const uint colours = 0; // of a splat
+const uint value_size = colours + 3;
 
 // The splats of a chunk.
 shared dvec4 disc[chunk];              // x, y, radius, 1 / area

@@ -76,17 +76,21 @@ void find_touching(uint count) {
     touching[thread()] = found;
 }
 
+// Whether a splat has colour k of the group, and where among its values.
+bool has_colour(uint k) { return 4 * group + k < colours; }
+uint colour_at(uint k) { return 2 + 4 * group + k; }
+
 // Brings `count` splats into shared memory. Begins and ends with a barrier.
 void load_chunk(uint begin, uint count) {
     barrier();
     if (thread() < count) {
-        const uint i = begin + thread();
-        const dvec3 d = dvec3(discs[3 * i], discs[3 * i + 1], discs[3 * i + 2]);
+        const uint i = begin + thread(), at = i * value_size;
+        const dvec3 d = dvec3(discs[i], discs[push.splat_count + i], discs[2 * push.splat_count + i]);
         precise const double area_to_weight = 1 / (pi * d.z * d.z);
         disc[thread()] = dvec4(d, area_to_weight);
         touched[thread()] = touched_by(d);
-        share[thread()] = vec3(shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]);
-        colour[thread()] = colours[group * push.splat_count + i];
+        share[thread()] = vec3(splat_values[at], splat_values[at + 1], splat_values[at + value_size - 1]);
+        for (uint k = 0; k < 4; ++k) colour[thread()][k] = has_colour(k) ? splat_values[at + colour_at(k)] : 0;
     }
     barrier();
     for (uint e = thread(); e < 2 * count * edges; e += threads) {

@@ -1,5 +1,5 @@
-// The data of the warp's kernels: the samples of all views that some rows of the centre view need, the samples that
-// fall into each pixel of those rows, and the result. All belong to one stripe (warp_frame.h).
+// The data of the warp's kernels (warp_frame.h): the samples of all views, the samples that fall into each pixel of the
+// centre view, and the result.
 //
 // Arithmetic is in double precision and in the CPU's order, without fused multiply-add (`precise`), so that the samples
 // equal those of src/warp bit for bit.
@@ -20,7 +20,8 @@ layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
 layout(binding = 4) readonly buffer Weights { float weights[]; }; // [sample]
 layout(binding = 5) readonly buffer Values { uint values[]; };    // [channel][sample], bits
 layout(binding = 6) readonly buffer Ids { uint ids[]; };          // [channel]: 1 for ids, which are copied
-// [pixel]: see first_of(). One entry follows: not 0 if a pixel has more samples than frame.most_in_pixel.
+// [pixel]: see first_of(). Two entries follow: the number of all; not 0 if a pixel has more samples than
+// frame.most_in_pixel.
 layout(binding = 7) buffer Ends { uint ends[]; };
 // samples in the pixels that they fell into: index, dx, dy, 1 / z (bits)
 layout(binding = 8) buffer Landed { uvec4 landed[]; };
@@ -37,7 +38,13 @@ uint pixel_count() { return uint(frame.width * frame.height); }
 ivec2 position_of(uint pixel) {
     return ivec2(frame.first_x + int(pixel) % frame.width, frame.first_y + int(pixel) / frame.width);
 }
+bool has_too_many() { return ends[pixel_count() + 1] != 0; } // in some pixel
 bool has_rule(uint rule) { return (frame.rules & rule) != 0; }
+
+// Where begins[] has a pixel of a view.
+uint begin_at(View view, int x, int y) {
+    return view.begins + uint((y - view.min_y) * (view.max_x - view.min_x + 1) + x - view.min_x);
+}
 
 // The samples that fell into a pixel are landed[first_of(pixel)] to landed[ends[pixel] - 1].
 uint first_of(uint pixel) { return pixel == 0 ? 0 : ends[pixel - 1]; }

@@ -2,10 +2,12 @@
 
 #include "base/grid.h"
 #include "base/matte.h"
+#include "base/parallel.h"
 #include "deep/build.h"
 #include "gpu/device_worker.h"
-#include "gpu/warp/warp_frame.h"
+#include "gpu/warp/prefix_sums.h"
 #include "kernels/warp_layout.h"
+#include "kernels/warp_rules.h"
 #include "warp/photo_consistency.h"
 #include "warp/reprojected_views.h"
 
@@ -14,8 +16,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sparselens::gpu {
@@ -63,9 +67,11 @@ struct WarpKernels {
           surfaces(device.program("surfaces", surfaces_code, bindings, 0)),
           differences(device.program("differences", differences_code, bindings, 0)),
           vote(device.program("vote", vote_code, bindings, 0)),
-          emit(device.program("emit", emit_code, bindings, 0)) {}
+          emit(device.program("emit", emit_code, bindings, 0)), sums(device) {}
 
     Program land, surfaces, differences, vote, emit;
+    PrefixSums sums;
+    std::vector<Buffer> buffers; // by Binding; kept for later warps
 };
 
 // The work groups for a number of items; more than one row if they are many.
@@ -75,145 +81,195 @@ std::array<std::uint32_t, 3> groups_for(std::size_t items) {
     return {std::uint32_t(std::min(groups, most_in_row)), std::uint32_t(pieces_of(groups, most_in_row)), 1};
 }
 
-// The work of the kernels on one stripe: views are uploaded, samples of the LDI are downloaded.
-class StripeWork {
+// Whether a device in single precision holds all depths and their inverses: it may take denormal numbers for 0.
+bool holds_depths(const ReprojectedViews &views) {
+    constexpr float infinity = std::numeric_limits<float>::infinity(),
+                    normal = std::numeric_limits<float>::min();
+    std::vector<char> holds(views.size());
+    parallel_for(views.size(), [&](std::size_t v) {
+        const ViewSamples &view = views.samples(v);
+        float nearest = infinity, farthest = 1;
+        for (std::size_t p = 0; p < view.windows.pixels(); ++p)
+            for (const std::uint64_t i : view.pixel(p)) {
+                nearest = std::min(nearest, view.z(i));
+                if (view.z(i) < infinity) farthest = std::max(farthest, view.z(i));
+            }
+        holds[v] = nearest >= normal && 1 / double(farthest) >= double(normal);
+    });
+    return std::ranges::find(holds, 0) == holds.end();
+}
+
+std::vector<warp_kernel::View> views_of(const ReprojectedViews &views) {
+    std::vector<warp_kernel::View> all;
+    std::size_t begins = 0;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const ViewMapping &mapping = views.reprojection(v).mapping();
+        const Imath::V2d offset = mapping.at_infinity({0, 0}), step = mapping.parallax({0, 0});
+        const Windows &windows = views.samples(v).windows;
+        const Imath::Box2i &data = windows.data;
+        all.push_back({mapping.unzoom(), mapping.approach(), offset.x, offset.y, step.x, step.y, data.min.x,
+                       data.min.y, data.max.x, data.max.y, std::uint32_t(begins), 0});
+        begins += windows.pixels() + 1;
+    }
+    return all;
+}
+
+std::size_t sample_count(const ReprojectedViews &views) {
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < views.size(); ++v)
+        count += views.samples(v).count(0, std::size_t(views.samples(v).windows.height()));
+    return count;
+}
+
+warp_kernel::Frame frame_of(const WarpScene &scene, std::uint32_t most_in_pixel) {
+    warp_kernel::Frame frame{};
+    frame.tolerance = scene.tolerance;
+    frame.inverse_scale = 1 / scene.scale;
+    frame.motion_unit = kernels::motion_unit(scene.across);
+    const Windows &windows = scene.layout.windows;
+    frame.first_x = windows.data.min.x;
+    frame.first_y = windows.data.min.y;
+    frame.width = windows.width();
+    frame.height = windows.height();
+    frame.views = std::uint32_t(scene.views.size());
+    frame.samples = std::uint32_t(sample_count(scene.views));
+    frame.channels = std::uint32_t(scene.layout.channels.size());
+    const std::size_t alpha = find_channel(scene.layout.channels, "A");
+    frame.alpha = alpha == npos ? warp_kernel::none : std::uint32_t(alpha);
+    for (const std::size_t colour : find_rgb(scene.layout.channels))
+        if (colour != npos) frame.colours[frame.colours[3]++] = std::uint32_t(colour);
+    frame.rules = scene.averages ? warp_kernel::averages : 0;
+    if (scene.focus) {
+        frame.rules |= std::isinf(scene.focus->focus)
+                           ? warp_kernel::focus_known | warp_kernel::focus_at_infinity
+                           : warp_kernel::focus_known;
+        frame.focus_scale = scene.focus->radius * scene.focus->focal_px;
+        frame.focus = scene.focus->focus;
+    }
+    frame.most_in_pixel = most_in_pixel;
+    return frame;
+}
+
+// One warp: views are uploaded, samples of the LDI are downloaded.
+class WarpWork {
 public:
-    // Uploads what the stripe needs. `most`: samples in a pixel.
-    StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
-               std::uint32_t most)
-        : device_(device), kernels_(kernels), scene_(scene), stripe_(stripe),
-          pixels_(Grid(stripe.box).size()), blocks_(Tiles(stripe.box, kernels::photo_block).count()) {
-        const warp_kernel::Frame constants = frame_of(scene, stripe, most);
+    // Records all of it. `most`: samples in a pixel.
+    WarpWork(Device &device, WarpKernels &kernels, const WarpScene &scene, std::uint32_t most)
+        : device_(device), kernels_(kernels), scene_(scene) {
+        const std::size_t samples = sample_count(scene.views), channels = scene.layout.channels.size(),
+                          all_begins = views_.back().begins + pixels_of(views_.back()) + 1;
+        device.make_room(kernels.buffers,
+                         std::array{sizeof(warp_kernel::Frame), views_.size() * sizeof(warp_kernel::View),
+                                    all_begins * 4, samples * 4, samples * 4, channels * samples * 4,
+                                    channels * 4, (pixels_ + 2) * 4, samples * 16, samples * 8, samples * 8,
+                                    blocks_ * 4, (pixels_ + 1) * 4, (4 + channels) * samples * 4});
+        const warp_kernel::Frame constants = frame_of(scene, most);
         upload(frame, std::span(&constants, 1));
-        upload(views, std::span(stripe.views));
-        upload_views();
+        upload(views, std::span(views_));
+        upload_views(samples);
         std::vector<std::uint32_t> copied;
         for (const Channel &channel : scene.layout.channels) copied.push_back(holds_ids(channel) ? 1 : 0);
         upload(ids, std::span(copied));
-        for (const std::size_t binding : {landed, marks, means, verdicts, emitted, results}) make(binding, 4);
-        make(ends, (pixels_ + 1) * 4);
-        device_.fill(buffers_[ends], 0);
+        land();
+        merge();
     }
 
     std::size_t uploaded() const { return uploaded_; } // bytes
 
-    // Puts all samples into the pixels that they fall into. Returns false if some pixel has too many samples; nothing
-    // else can be done then.
-    bool land() {
-        std::size_t most_pixels = 1;
-        for (const warp_kernel::View &view : stripe_.views)
-            most_pixels =
-                std::max(most_pixels, std::size_t(view.rows) * std::size_t(view.max_x - view.min_x + 1));
-        std::array<std::uint32_t, 3> groups = groups_for(most_pixels);
-        groups[2] = std::uint32_t(stripe_.slices.size());
-        const auto pass = [&](std::uint32_t list) {
-            run(kernels_.land, groups, std::as_bytes(std::span(&list, 1)));
-        };
-        pass(0);
-        std::vector<std::uint32_t> counts = download<std::uint32_t>(ends, pixels_ + 1);
-        if (counts.back() != 0) return false;
-        const std::size_t count = sum_up(counts);
-        upload(ends, std::span(counts));
-        make(landed, count * 16);
-        make(marks, count * 8);
-        make(means, count * 8);
-        pass(1);
-        return true;
-    }
-
-    Ldi merge() { // once, after land()
-        const auto groups = groups_for(pixels_);
-        run(kernels_.surfaces, groups);
-        make(verdicts, blocks_ * 4);
-        if (scene_.tests_photo_consistency)
-            run(kernels_.differences, groups_for(blocks_));
-        else
-            device_.fill(buffers_[verdicts], kernels::may_average);
-        make(emitted, (pixels_ + 1) * 4);
-        run(kernels_.vote, groups);
-        std::vector<std::uint32_t> begin = download<std::uint32_t>(emitted, pixels_ + 1);
-        const std::size_t samples = sum_up(begin);
-        upload(emitted, std::span(begin));
-        make(results, (4 + scene_.layout.channels.size()) * samples * 4);
-        run(kernels_.emit, groups);
+    // Does it. Returns nothing if some pixel has too many samples.
+    std::optional<Ldi> finish() {
+        std::uint32_t too_many = 0;
+        std::vector<std::uint32_t> begin(pixels_ + 1);
+        verdicts_.resize(blocks_);
+        device_.finish(std::array{to(begin, emitted), to(verdicts_, verdicts),
+                                  to(std::span(&too_many, 1), ends, pixels_ + 1)});
+        if (too_many != 0) return {};
         Ldi ldi = empty_like(scene_.layout);
         ldi.begin.assign(begin.begin(), begin.end());
-        std::size_t array = 0;
-        const auto take = [&](std::vector<float> &to) { to = download<float>(results, samples, array++); };
-        for (std::vector<float> *to : {&ldi.z, &ldi.dx, &ldi.dy, &ldi.weight}) take(*to);
-        for (std::vector<float> &to : ldi.values) take(to);
+        std::vector<Download> arrays;
+        const auto take = [&](std::vector<float> &array) {
+            array.resize(begin.back());
+            arrays.push_back(to(array, results, arrays.size() * begin.back()));
+        };
+        for (std::vector<float> *array : {&ldi.z, &ldi.dx, &ldi.dy, &ldi.weight}) take(*array);
+        for (std::vector<float> &array : ldi.values) take(array);
+        device_.finish(arrays);
         return ldi;
     }
 
-    std::vector<Disagreement> differing_blocks() { // after merge(); see WarpedBands
+    std::vector<Disagreement> differing_blocks() const { // after finish(); see WarpedBands
         std::vector<Disagreement> differ(blocks_);
-        std::ranges::transform(download<std::uint32_t>(verdicts, blocks_), differ.begin(), disagreement_of);
+        std::ranges::transform(verdicts_, differ.begin(), disagreement_of);
         return differ;
     }
 
 private:
+    static std::size_t pixels_of(const warp_kernel::View &view) {
+        return std::size_t(view.max_x - view.min_x + 1) * std::size_t(view.max_y - view.min_y + 1);
+    }
+
+    // Puts all samples into the pixels that they fall into.
+    void land() {
+        std::size_t most_pixels = 1;
+        for (const warp_kernel::View &view : views_) most_pixels = std::max(most_pixels, pixels_of(view));
+        std::array<std::uint32_t, 3> groups = groups_for(most_pixels);
+        groups[2] = std::uint32_t(views_.size());
+        device_.fill(kernels_.buffers[ends], 0);
+        for (const std::uint32_t list : {0u, 1u}) {
+            device_.run(kernels_.land, kernels_.buffers, std::as_bytes(std::span(&list, 1)), groups);
+            if (list == 0) kernels_.sums.run(kernels_.buffers[ends], pixels_ + 1);
+        }
+    }
+
+    void merge() {
+        const auto run = [&](const Program &program, std::size_t items) {
+            device_.run(program, kernels_.buffers, {}, groups_for(items));
+        };
+        run(kernels_.surfaces, pixels_);
+        if (scene_.tests_photo_consistency)
+            run(kernels_.differences, blocks_);
+        else
+            device_.fill(kernels_.buffers[verdicts], kernels::may_average);
+        run(kernels_.vote, pixels_);
+        kernels_.sums.run(kernels_.buffers[emitted], pixels_ + 1);
+        run(kernels_.emit, pixels_);
+    }
+
     // Uploads the arrays of all views, one after the other, and where in them the samples of each pixel begin; after
     // the pixels of a view, where its last sample ends.
-    void upload_views() {
-        const std::size_t channels = scene_.layout.channels.size();
-        make(depths, stripe_.samples * sizeof(float));
-        make(weights, stripe_.samples * sizeof(float));
-        make(values, channels * stripe_.samples * sizeof(float));
+    void upload_views(std::size_t samples) {
         std::vector<std::uint32_t> first_samples;
-        first_samples.reserve(stripe_.begins);
         std::size_t at = 0;
-        for (std::size_t v = 0; v < stripe_.slices.size(); ++v) {
-            const WarpStripe::Slice &slice = stripe_.slices[v];
-            const Ldi view = scene_.views.samples(v).rows(slice.first_row, slice.end_row);
+        for (std::size_t v = 0; v < views_.size(); ++v) {
+            const Ldi view = scene_.views.samples(v).as_ldi();
             for (const std::uint64_t begin : view.begin) first_samples.push_back(std::uint32_t(begin + at));
-            place(depths, std::span(view.z), at);
-            place(weights, std::span(view.weight), at);
-            for (std::size_t k = 0; k < channels; ++k)
-                place(values, std::span(view.values[k]), k * stripe_.samples + at);
-            at += slice.samples;
+            upload(depths, std::span(view.z), at);
+            upload(weights, std::span(view.weight), at);
+            for (std::size_t k = 0; k < view.values.size(); ++k)
+                upload(values, std::span(view.values[k]), k * samples + at);
+            at += view.samples();
         }
         upload(begins, std::span(first_samples));
     }
 
-    void make(std::size_t binding, std::size_t bytes) {
-        buffers_[binding] = {};
-        buffers_[binding] = device_.buffer(bytes);
-    }
+    // `at`: in numbers.
     template <typename Number>
-    void place(std::size_t binding, std::span<const Number> numbers, std::size_t at) {
-        device_.upload(buffers_[binding], std::as_bytes(numbers), at * sizeof(Number));
+    void upload(Binding binding, std::span<Number> numbers, std::size_t at = 0) {
+        device_.upload(kernels_.buffers[binding], std::as_bytes(numbers), at * sizeof(Number));
         uploaded_ += numbers.size_bytes();
     }
-    template <typename Number>
-    void upload(std::size_t binding, std::span<Number> numbers) {
-        make(binding, numbers.size_bytes());
-        place<std::remove_const_t<Number>>(binding, numbers, 0);
-    }
-    template <typename Number>
-    std::vector<Number> download(std::size_t binding, std::size_t count, std::size_t array = 0) {
-        std::vector<Number> numbers(count);
-        device_.download(std::as_writable_bytes(std::span(numbers)), buffers_[binding],
-                         array * count * sizeof(Number));
-        return numbers;
-    }
-
-    // Each number becomes the sum of those before it. Returns the last one, which is the sum of all others.
-    static std::size_t sum_up(std::vector<std::uint32_t> &numbers) {
-        std::exclusive_scan(numbers.begin(), numbers.end(), numbers.begin(), 0u);
-        return numbers.back();
-    }
-
-    void run(const Program &program, const std::array<std::uint32_t, 3> &groups,
-             std::span<const std::byte> push = {}) {
-        device_.run(program, buffers_, push, groups);
+    template <typename Numbers>
+    Download to(Numbers &&numbers, Binding binding, std::size_t at = 0) const {
+        return {std::as_writable_bytes(std::span(numbers)), kernels_.buffers[binding], at * 4};
     }
 
     Device &device_;
     WarpKernels &kernels_;
     const WarpScene &scene_;
-    const WarpStripe &stripe_;
-    std::size_t pixels_, blocks_, uploaded_ = 0;
-    std::array<Buffer, bindings> buffers_;
+    std::vector<warp_kernel::View> views_ = views_of(scene_.views);
+    std::size_t pixels_ = scene_.layout.windows.pixels(),
+                blocks_ = Tiles(scene_.layout.windows.data, kernels::photo_block).count(), uploaded_ = 0;
+    std::vector<std::uint32_t> verdicts_ = {};
 };
 
 // One thread sorts a pixel, in time proportional to the square of its samples.
@@ -235,45 +291,21 @@ public:
         const auto leave = [&](const char *why) { worker_.report.on_cpu[why] += height; };
         worker_.unless_lost(height, [&] {
             if (!find_mattes(scene.layout.channels).empty()) return leave("Cryptomattes");
-            const double inverse_z = largest_inverse_z(scene.views);
-            if (!std::isfinite(inverse_z)) return leave("depths that single precision hardly holds");
-            warp_rows(scene, height, inverse_z, done);
+            if (!holds_depths(scene.views)) return leave("depths that single precision hardly holds");
+            const bool in_software = worker_.device.info().kind == Kind::software;
+            WarpWork on(worker_.device, kernels_, scene,
+                        in_software ? most_in_software(scene) : most_in_pixel);
+            worker_.report.uploaded += on.uploaded();
+            std::optional<Ldi> ldi = on.finish();
+            if (!ldi) return leave("more samples in a pixel than it sorts");
+            done({0, pieces_of(height, std::size_t{warp_band_rows}), std::move(*ldi), on.differing_blocks()});
+            worker_.report.on_device += height;
         });
     }
 
     DeviceReport take_report() override { return worker_.take_report(); }
 
 private:
-    void warp_rows(const WarpScene &scene, std::size_t height, double inverse_z,
-                   const std::function<void(WarpedBands)> &done) {
-        constexpr std::size_t band = warp_band_rows;
-        const auto stripe_of = [&](std::size_t begin, std::size_t count) {
-            Imath::Box2i box = scene.layout.windows.data;
-            box.min.y += int(begin);
-            box.max.y = box.min.y + int(count) - 1;
-            return make_stripe(scene, box, inverse_z);
-        };
-        const auto fit = [&](std::size_t begin, std::size_t most, std::size_t bytes) {
-            std::size_t rows = most;
-            while (buffer_bytes(scene, stripe_of(begin, rows)) > bytes) {
-                if (rows <= band) return std::size_t{0};
-                rows = pieces_of(rows, 2 * band) * band;
-            }
-            return rows;
-        };
-        const auto work = [&](std::size_t begin, std::size_t rows) -> const char * {
-            const WarpStripe stripe = stripe_of(begin, rows);
-            const std::uint32_t most =
-                worker_.device.info().kind == Kind::software ? most_in_software(scene) : most_in_pixel;
-            StripeWork on(worker_.device, kernels_, scene, stripe, most);
-            worker_.report.uploaded += on.uploaded();
-            if (!on.land()) return "more samples in a pixel than it sorts";
-            done({begin / band, pieces_of(rows, band), on.merge(), on.differing_blocks()});
-            return nullptr;
-        };
-        worker_.by_stripes(height, band, fit, work);
-    }
-
     DeviceWorker worker_;
     WarpKernels kernels_;
 };

@@ -6,10 +6,7 @@
 
 PhotoBlock shown;
 
-// For the centre view, which also has the rows around.
-uint begin_at(int x, int y) {
-    return views[0].begins + uint((y - views[0].first_row) * (views[0].max_x - views[0].min_x + 1) + x - views[0].min_x);
-}
+uint begin_at(int x, int y) { return begin_at(views[0], x, y); }
 bool single(int x, int y) { return begins[begin_at(x, y) + 1] - begins[begin_at(x, y)] == 1; }
 double centre_value(int x, int y, uint channel) { return bounded(double(value_of(begins[begin_at(x, y)], channel))); }
 

@@ -1,6 +1,6 @@
 #version 460
 // Reprojection: one thread takes a pixel of a view, and puts its samples into the pixels of the centre view that they
-// fall into. The first run counts them; the host then gives each pixel its range; the second run lists them. No
+// fall into. The first run counts them, prefix sums then give each pixel its range, and the second run lists them. No
 // thread waits for another; warp_surfaces.comp sorts the samples, whose order is arbitrary.
 //
 // gl_WorkGroupID.z: the view.
@@ -13,9 +13,9 @@ void main() {
     const View view = views[gl_WorkGroupID.z];
     const int width = view.max_x - view.min_x + 1;
     const uint i = item();
-    if (i >= uint(width * view.rows)) return;
+    if (i >= uint(width * (view.max_y - view.min_y + 1))) return;
     const double from_x = double(view.min_x + int(i) % width) + 0.5lf,
-                 from_y = double(view.first_row + int(i) / width) + 0.5lf;
+                 from_y = double(view.min_y + int(i) / width) + 0.5lf;
     const double far_x = at_infinity(from_x, view.unzoom, view.offset_x), far_y = at_infinity(from_y, view.unzoom, view.offset_y),
                  parallax_x = parallax(from_x, view.step_x, view.approach),
                  parallax_y = parallax(from_y, view.step_y, view.approach);
@@ -28,7 +28,7 @@ void main() {
         const uint pixel = uint(int(cell_y) - frame.first_y) * uint(frame.width) + uint(int(cell_x) - frame.first_x);
         const uint at = atomicAdd(ends[pixel], 1);
         if (list == 0) {
-            if (at >= frame.most_in_pixel) ends[pixel_count()] = 1;
+            if (at >= frame.most_in_pixel) ends[pixel_count() + 1] = 1;
             continue;
         }
         precise const double dx = x - cell_x - 0.5lf, dy = y - cell_y - 0.5lf;

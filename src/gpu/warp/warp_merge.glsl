@@ -12,13 +12,7 @@ bool lies_in(View view, double x, double y) {
     return lies_in(x, view.min_x, view.max_x) && lies_in(y, view.min_y, view.max_y);
 }
 
-// Returns where begins[] has the pixel of a view that holds a position in its data window; `none` if that row is not
-// there, which the host prevents.
-uint begin_at(View view, double x, double y) {
-    const int row = int(floor(y)) - view.first_row;
-    if (row < 0 || row >= view.rows) return none;
-    return view.begins + uint(row * (view.max_x - view.min_x + 1) + int(floor(x)) - view.min_x);
-}
+uint begin_at(View view, double x, double y) { return begin_at(view, int(floor(x)), int(floor(y))); }
 
 // Like is_missing() of src/warp/coverage.h.
 bool is_missing(View view, double x, double y, double inverse_z) {
@@ -29,7 +23,7 @@ bool is_missing(View view, double x, double y, double inverse_z) {
     if (!lies_in(views[0], towards_x, towards_y)) return false;
     if (!lies_in(view, seen_x, seen_y)) return true;
     const uint at = begin_at(view, seen_x, seen_y);
-    return at == none || begins[at] == begins[at + 1];
+    return begins[at] == begins[at + 1];
 }
 
 bool some_view_is_missing(ivec2 pixel, uint from, uint to) {

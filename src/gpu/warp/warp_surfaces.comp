@@ -78,7 +78,7 @@ void sort(uint first, uint end, bool by_surface) {
 
 void main() {
     const uint pixel = item();
-    if (pixel >= pixel_count()) return;
+    if (pixel >= pixel_count() || has_too_many()) return;
     const uint first = first_of(pixel), end = ends[pixel];
     if (first == end) return;
     sort(first, end, false);

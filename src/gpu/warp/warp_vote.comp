@@ -28,7 +28,7 @@ void ask(View view, double x, double y, double inverse_z) {
     double seen_x, seen_y;
     if (!in_view(view, x, y, inverse_z, seen_x, seen_y) || !lies_in(view, seen_x, seen_y)) return;
     const uint at = begin_at(view, seen_x, seen_y);
-    if (at != none) count_votes(begins[at], begins[at + 1], inverse_z);
+    count_votes(begins[at], begins[at + 1], inverse_z);
 }
 
 double vote(ivec2 pixel, Mean mean) {
