@@ -52,6 +52,13 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice &physical, std::uint
     return {physical, create};
 }
 
+vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, std::uint32_t buffers) {
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < buffers; ++i)
+        bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
 } // namespace
 
 Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch)
@@ -141,17 +148,6 @@ const vk::raii::Buffer &Device::Vulkan::staging_buffer() {
     if (!staged) staged = static_cast<std::byte *>(staging->memory.mapMemory(0, staging_bytes));
     return staging->buffer;
 }
-
-namespace {
-
-vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, std::uint32_t buffers) {
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < buffers; ++i)
-        bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
-    return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
-}
-
-} // namespace
 
 Device::Device(const DeviceInfo &info, const Watch &watch) : info_(info), watch_(watch) {
     guarded(info_, [&] { vulkan_ = std::make_unique<Vulkan>(info_, watch_); });

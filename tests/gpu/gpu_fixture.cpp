@@ -69,7 +69,7 @@ void TileDeviceTest::expect_bears_failures(const Gather &gather, const Image &ex
         if (did.failure.empty()) return did;
         EXPECT_EQ(did.on_device, 0u);
         const bool full = did.failure.ends_with("has not enough memory");
-        EXPECT_EQ(did.on_cpu, (Tiles{{full ? not_enough : "the device failed", 1}}));
+        EXPECT_EQ(did.on_cpu, (Tiles{{full ? "the device has not enough memory" : "the device failed", 1}}));
         EXPECT_EQ(gather(device.get()).values, expected.values);
         EXPECT_EQ(device->take_report().failure.empty(), !full); // a lost device is not used any more
         return did;

@@ -18,8 +18,6 @@
 
 namespace sparselens::gpu {
 
-inline constexpr const char *not_enough = "the device has not enough memory";
-
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {

@@ -219,13 +219,13 @@ namespace {
 
 constexpr std::uint32_t blocks_in_run = 8; // as wide as a tile
 
-// A box. It is reached by bounds [x_min, x_max] x [y_min, y_max] that come within `by` of it.
 struct Box {
     float left, right, top, bottom;
 
+    // How far bounds [x_min, x_max] x [y_min, y_max] have to move along an axis to reach the box; at most 0: not at all.
     template <typename Bounds>
-    bool is_reached(const Bounds &b, float by) const {
-        return b.x_max + by >= left && b.x_min - by <= right && b.y_max + by >= top && b.y_min - by <= bottom;
+    float distance(const Bounds &b) const {
+        return std::max({left - b.x_max, b.x_min - right, top - b.y_max, b.y_min - bottom});
     }
 };
 
@@ -261,14 +261,17 @@ ReachingCocs BlockFinder::find(const Imath::V2i &origin, int size, float stretch
     const Box box{float(origin.x - 1), float(origin.x + size + 1), float(origin.y - 1),
                   float(origin.y + size + 1)};
     for (const Run &run : runs_) {
-        if (!box.is_reached(run, run.reach * stretched + 1)) continue;
+        if (box.distance(run) > run.reach * stretched + 1) continue;
         for (std::uint32_t b = run.begin; b < run.end; ++b) {
             const SampleBlock &block = samples_.blocks[b];
-            if (block.begin == block.end || !box.is_reached(block, reach_of(block) * stretched + 1)) continue;
+            const float distance = box.distance(block);
+            if (block.begin == block.end || distance > reach_of(block) * stretched + 1) continue;
             found.push_back(b);
             largest = std::max(largest, largest_coc_of(block));
             largest_shown = std::max(largest_shown, block.coc_shown);
-            cocs.least = std::min(cocs.least, block.coc_least);
+            // samples with a smaller CoC do not come so far
+            cocs.least =
+                std::min(cocs.least, std::max(block.coc_least, (distance - 1) / (extent_ * stretched)));
             cocs.with_background = cocs.with_background || block.has_background;
             shows_opaque = shows_opaque || block.shows_opaque;
         }

@@ -159,6 +159,15 @@ TEST(Cells, AreAsLargeAsTheBlurAllows) {
     EXPECT_EQ(Scene(70, -65).cell_size({.lens_samples = 64}), 1);
 }
 
+TEST(Cells, APostNearFocusDoesNotReachAsFarAsTheWallBehindIt) {
+    Scene scene;
+    scene.ldi = make_ldi(windows_of_size(side, side), rgba_channels(), [](int x, int) {
+        const Sample wall{depth_of(lens, 70), {0.5f, 0.5f, 0.5f, 1}}, post{depth_of(lens, -3), {1, 1, 1, 1}};
+        return x / 4 == 30 ? std::vector{post, wall} : std::vector{wall};
+    });
+    EXPECT_EQ(scene.cell_size({}), 4);
+}
+
 // The reference is 1024 lens points at every pixel. 4096 are nearer to the cells, so they make the difference larger.
 TEST(Cells, ThePictureIsThatOfManyLensPoints) {
     for (const auto &[wall, card] :
