@@ -91,6 +91,7 @@ SequencePicture Sequence::taken(const GatherCommand &options, const ToolContext 
     SequencePicture out;
     out.depths = of->depths;
     const Notify notify = [&](const Notice &notice) {
+        if (notice.kind == NoticeKind::on_device) out.device = std::get<std::string>(notice.values.front());
         if (level_of(notice) == NoticeLevel::note)
             tool.say(words_of(notice));
         else

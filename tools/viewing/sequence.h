@@ -22,6 +22,7 @@ namespace sparselens {
 // A picture through a lens: linear R, G, B and A.
 struct SequencePicture : TakenPicture {
     DepthExtent depths = {};
+    std::string device = {}; // that gathered it; empty: the CPU
     std::vector<std::string> warnings = {};
 };
 

@@ -168,6 +168,7 @@ std::string Viewer::answer(const Words &words, const PageRequest &wanted, Progre
     const ShownPixels pixels = Sequence::displayed(picture->image, wanted.exposure, *frame);
     Json said = size_of(pixels);
     said["lens"] = lens_facts(*picture);
+    if (!picture->device.empty()) said["device"] = picture->device;
     said["milliseconds"] =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     return with_bytes(said, pixels.values);

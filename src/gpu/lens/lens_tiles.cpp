@@ -87,13 +87,6 @@ std::vector<LensSample> in_groups(std::span<const LensSample> lens, std::size_t 
     return all;
 }
 
-std::uint32_t passes_of(std::span<const lens_kernel::Tile> tiles) {
-    std::uint32_t passes = 1;
-    for (const lens_kernel::Tile &tile : tiles)
-        passes = std::max(passes, pieces_of(tile.lens_count, tile.lens_in_pass));
-    return passes;
-}
-
 } // namespace
 
 const Program &LensTilesOnDevice::program_for(std::uint32_t rules, std::uint32_t points) {
@@ -159,13 +152,12 @@ void LensTilesOnDevice::gather_stripe(const GatherScene &scene, const Program &p
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
     const std::vector<lens_kernel::Tile> &tiles = lists_.arrays.tiles;
     const std::size_t groups = scene.colours.groups, all = tiles.size() * tile_pixels * groups;
-    const std::uint32_t passes = passes_of(tiles);
+    const std::uint32_t passes = lists_.arrays.passes;
     std::vector<Buffer> buffers = from.buffers;
     if (from.arrays.shown.empty()) buffers[shown] = buffers[cocs];
     buffers.insert(buffers.end(), lists_.buffers.begin(), lists_.buffers.end());
-    const std::array sizes{all * 4 * sizeof(float), all * sizeof(float),
-                           passes > 1 ? all * 8 * sizeof(float) : 0};
-    device_.make_room(made_, sizes);
+    device_.make_room(made_, std::array{all * 4 * sizeof(float), all * sizeof(float),
+                                        passes > 1 ? all * 8 * sizeof(float) : 0});
     buffers.insert(buffers.end(), made_.begin(), made_.end());
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         if (pass > 0) device_.finish();

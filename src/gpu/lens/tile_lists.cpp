@@ -1,5 +1,6 @@
 #include "gpu/lens/tile_lists.h"
 
+#include "base/grid.h"
 #include "base/parallel.h"
 #include "deep/merge.h"
 
@@ -201,6 +202,7 @@ TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, st
         const double in_pass =
             std::clamp(std::min(std::min(most_turns, most_of_tile) / turns[t], groups), 1.0, 1e6);
         tile.lens_in_pass = points * std::uint32_t(in_pass);
+        lists.passes = std::max(lists.passes, pieces_of(tile.lens_count, tile.lens_in_pass));
     }
     return lists;
 }

@@ -24,6 +24,7 @@ struct TileLists {
     // each part front, back and the share of light that it lets through (bits of float). Empty without a holdout.
     std::vector<std::uint32_t> holdout;
     std::vector<lens_kernel::Tile> tiles; // one per task
+    std::uint32_t passes = 1;
 };
 
 // How many turns of the program's loops some lens points, taken at once, of the tile take; an upper estimate.

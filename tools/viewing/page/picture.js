@@ -1,5 +1,5 @@
-// The picture: while settings change, drafts at the finest proxy that allows ten a second; then the whole picture.
-const proxies = [1, 2, 3, 4, 6, 8, 12, 16];
+// The picture: while settings change, the finest drafts that allow ten a second; then the whole picture.
+const drafts = [[1, 'normal', 3], ...[1, 2, 3, 4, 6, 8, 12, 16].map((proxy) => [proxy, 'draft', 1 / proxy ** 2])]; // and work
 const state = {
     facts: null,
     settings: {},    // options of dof-gather that this page has set
@@ -10,7 +10,7 @@ const state = {
     lens: null,      // what the server reports of the last picture's lens
     began: undefined, // the aperture of the first picture
 };
-const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false, pointer: null, pieces: 0 };
+const flow = { level: 4, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false, pointer: null, pieces: 0 };
 
 // The settings that make the picture, without those of drafts.
 function settingsNow() {
@@ -36,8 +36,8 @@ function draw(canvas, data) {
     canvas.getContext('2d').putImageData(data, 0, 0);
 }
 
-// Shows the answer, if there is one.
-async function show(response, quality) {
+// Shows the answer, if there is one, and how long it took and the device that gathered it, if any. `what`: the name of a draft.
+async function show(response, quality, begun, what = quality) {
     if (!response) return null;
     const { said, data } = await pictureOf(response);
     draw(part('above'), data);
@@ -45,15 +45,16 @@ async function show(response, quality) {
     for (const each of ['normal', 'final']) part(each).classList.toggle('on', quality === each);
     part('quality').textContent = quality === 'draft' ? 'a draft' : '';
     document.body.dataset.quality = quality;
+    part('speed').textContent = what + ': ' + Math.round(performance.now() - begun) + ' ms' + (said.device ? ', ' + said.device : '');
     sayLens();
     return said;
 }
 
-// Chooses a finer proxy if there is time, a coarser one if not.
+// Chooses finer drafts if there is time, coarser ones if not.
 function choose(milliseconds) {
-    const aim = 100, now = proxies[flow.level];
-    if (milliseconds > aim && flow.level + 1 < proxies.length) ++flow.level;
-    else if (flow.level > 0 && milliseconds * (now / proxies[flow.level - 1]) ** 2 < 0.8 * aim) --flow.level;
+    const aim = 100, finer = drafts[flow.level - 1];
+    if (milliseconds > aim && flow.level + 1 < drafts.length) ++flow.level;
+    else if (finer && milliseconds * finer[2] / drafts[flow.level][2] < 0.8 * aim) --flow.level;
 }
 
 // Handles a changed setting: makes drafts, then the whole picture.
@@ -82,13 +83,11 @@ async function changed() {
 async function draft() {
     await knowFrame();
     if (state.overlay) return; // false colours describe the full-size pixels
-    const begun = performance.now(), proxy = proxies[flow.level];
-    const settings = withQuality(proxy > 1 ? { ...settingsNow(), proxy: String(proxy) } : settingsNow(), 'draft');
+    const begun = performance.now(), [proxy, quality] = drafts[flow.level];
+    const settings = withQuality(proxy > 1 ? { ...settingsNow(), proxy: String(proxy) } : settingsNow(), quality);
     const response = await ask('picture', { settings, exposure: exposureNow() });
-    if (!await show(response, 'draft')) return;
-    const taken = performance.now() - begun;
-    part('speed').textContent = 'draft at 1/' + proxy + ': ' + Math.round(taken) + ' ms';
-    choose(taken);
+    if (!await show(response, 'draft', begun, proxy > 1 ? 'draft at 1/' + proxy : quality)) return;
+    choose(performance.now() - begun);
     await new Promise(requestAnimationFrame); // until the draft is on screen
 }
 
@@ -103,8 +102,7 @@ async function full(quality) {
     try {
         await knowFrame();
         const asked = { settings: withQuality(settingsNow(), quality), exposure: exposureNow(), pixel: flow.pointer ?? middle() };
-        const said = await show(await ask('picture', asked), quality);
-        if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
+        const said = await show(await ask('picture', asked), quality, begun);
         if (said) knowMore().catch((error) => say(error.message));
     } catch (error) {
         say(error.message);
