@@ -21,6 +21,7 @@ void DeviceWorker::unless_lost(std::size_t units, const std::function<void()> &w
     const std::size_t before = counted(report);
     const char *why = "the device failed";
     if (!lost_) try {
+            device.finish(); // what work that ended early left recorded keeps memory
             return work();
         } catch (const DeviceFull &full) {
             report.failure = full.what();
