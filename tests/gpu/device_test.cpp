@@ -25,7 +25,7 @@ TEST_F(DeviceTest, PrefixSumsAreThoseOfTheCpu) {
     Device device(*info, watch());
     PrefixSums sums(device);
     std::minstd_rand random(1);
-    for (const std::size_t count : {1, 15, 4096, 4097, 1'500'000}) { // also more chunks than threads
+    for (const std::size_t count : {1u, 15u, 4096u, 4097u, 1'500'000u}) { // also more chunks than threads
         std::vector<std::uint32_t> numbers(count), expected(count), back(count);
         for (std::uint32_t &number : numbers) number = std::uint32_t(random() % 100);
         std::exclusive_scan(numbers.begin(), numbers.end(), expected.begin(), 0u);
