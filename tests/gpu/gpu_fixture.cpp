@@ -76,6 +76,16 @@ void TileDeviceTest::expect_bears_failures(const Gather &gather, const Image &ex
     });
 }
 
+void TileDeviceTest::expect_exceeds_buffers(const Gather &gather, const Image &expected) {
+    Watch small = watch();
+    small.largest_buffer = 1 << 12;
+    device = open_gather_device(*info, small);
+    EXPECT_EQ(gather(device.get()).values, expected.values);
+    const TileReport did = device->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_GT(did.on_cpu.at("the device has not enough memory"), 0u);
+}
+
 void TileDeviceTest::expect_needs_little_memory(const Gather &gather, const Image &expected,
                                                 double tolerance) {
     const TileReport did = with_little_memory([&] {

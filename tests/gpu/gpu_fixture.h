@@ -64,6 +64,8 @@ protected:
 
     // The pictures may differ by `tolerance`. The picture has one tile.
     void expect_bears_failures(const Gather &gather, const Image &expected, double tolerance);
+    // The buffers of the device hold less than the picture needs, so the CPU gathers all of it.
+    void expect_exceeds_buffers(const Gather &gather, const Image &expected);
     // The device has 64 MB of memory, which is too little for all tiles at once.
     void expect_needs_little_memory(const Gather &gather, const Image &expected, double tolerance);
 

@@ -177,6 +177,8 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     small.largest_buffer = 5 << 17;
     device = open_gather_device(*info, small);
     expect_same(ldi, {.lens_samples = 8});
+    const auto by = [&](TileDevice *used) { return gather(ldi, {.lens_samples = 8, .device = used}); };
+    expect_exceeds_buffers(by, by(nullptr));
 }
 
 // Depths are looked up in single precision; equal depths of the holdout stay equal.

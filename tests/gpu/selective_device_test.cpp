@@ -98,6 +98,7 @@ TEST_F(SelectiveDeviceTest, StripesMakeTheSamePicture) {
     EXPECT_LE(largest_difference(gather(ldi, lens, {.device = device.get()}), expected),
               1e-6 * largest_of(expected));
     EXPECT_EQ(device->take_report().on_cpu, Tiles());
+    expect_exceeds_buffers([&](TileDevice *used) { return gather(ldi, lens, {.device = used}); }, expected);
 }
 
 TEST_F(SelectiveDeviceTest, WhatTakesLongTakesPasses) {

@@ -60,12 +60,14 @@ TEST(FrameExtension, WhatLeavesItGoesOnAsFarAsTheLensSees) {
     cocs.back() = -2.9;
     const Ldi ldi = row_of(cocs);
     const FrameExtension all = beyond(ldi, ldi.windows.data);
-    EXPECT_EQ(values(all, -9, -7), (std::vector<float>{unknown, 0, 0})); // the lens sees 3, in steps of 8
+    // The lens sees 3 pixels far, which are rounded up to 8.
+    EXPECT_EQ(values(all, -9, 1), (std::vector<float>{unknown, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}));
     EXPECT_EQ(values(all, 18, 22), (std::vector<float>{18, 19, 19, 19, 19}));
     cocs.front() = cocs.back() = NAN;
     const Ldi empty = row_of(cocs);
-    EXPECT_EQ(values(beyond(empty, empty.windows.data), -9, -7),
-              (std::vector<float>{unknown, nothing, nothing})); // up to 8 pixels away
+    EXPECT_EQ(values(beyond(empty, empty.windows.data), -9, 1),
+              (std::vector<float>{unknown, nothing, nothing, nothing, nothing, nothing, nothing, nothing,
+                                  nothing, nothing, 1})); // up to 8 pixels away
 }
 
 // Rim views saw surfaces 5 pixels near up to five pixels beyond the frame, so they would have shown the rest of it.
