@@ -1,6 +1,6 @@
 # Where the time of `--device` goes: milliseconds by --stats of the second of two pictures over one LDI, beside the CPU
 # with 2 threads and with all, in one run. $device is a part of the device's name (default: gpu; llvmpipe is Mesa's
-# software device), $sizes and $scenes may be others. 8 minutes with a GPU. With an archive: bash gpu.sh ARCHIVE/bin
+# software device), $sizes and $scenes may be others. 8 minutes with a GPU. Works on an archive, too: bash gpu.sh ARCHIVE/bin
 . "$(dirname "$0")/common.inc" "$1"
 
 device=${device-gpu}
@@ -28,7 +28,7 @@ for size in ${sizes-1920x1080 3840x2160}; do
             read -r at threads <<<"$by"
             on="${at/cpu/CPU}${threads:+, $threads threads}"
             words=(--device "$at" ${threads:+--threads "$threads"})
-            row "warp of five views, $on" 'land|surfaces|differences|vote|emit' ldi-warp "${views[@]}" "${words[@]}" -o "$scene.$size.exr"
+            row "warp of five views, $on" 'land|surfaces|differences|vote|emit|sums|fill' ldi-warp "${views[@]}" "${words[@]}" -o "$scene.$size.exr"
             for quality in normal final; do
                 row "pull, second frame, $quality, $on" lens dof-gather "$scene.$size.exr" --quality $quality "${words[@]}" --frames 1-2 --focus-distance $focus -o pull.#.exr
             done

@@ -23,8 +23,8 @@ struct BorderReach {
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
 // How far the lens looks beyond the frame, in pixels across and down: as far as light of the outermost pixels reaches
-// (lens/psf.h), in whole steps, so that the same samples are gathered while the focus changes little; at most half of
-// the frame's longer side. Only the outermost pixels of the LDI are needed.
+// (lens/psf.h), rounded up to whole steps, so that small changes of focus gather the same samples; at most half of the
+// frame's longer side. Only the outermost pixels of the LDI are needed.
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame);
 

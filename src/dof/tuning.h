@@ -93,8 +93,8 @@ struct GatherTuning {
     // Pixels of the picture, inwards from the border, that tell how far something continues. Bands of rows include as
     // many rows at the border (gather_rows.cpp).
     static constexpr int border_inwards = 96;
-    // Pixels of the LDI. Samples continue a whole number of steps (border_reach.h): of a pull of fence at 1920x1080 from
-    // 4 to 5 in 24 frames, one frame gathers other samples than the frame before. The picture stays the same.
+    // Pixels of the LDI: samples continue for a multiple of this (border_reach.h). When the focus on fence at 1920x1080
+    // moves from 4 to 5 in 24 frames, only one frame gathers other samples than the frame before it.
     static constexpr int border_step = 8;
 
     // Sharpening (lens/sharpen.h). This quantile of a block's detail is its noise, because the calmer part shows only

@@ -1,5 +1,5 @@
-// A device that computes: buffers in its memory, and programs that read and write them. Uploads and runs of programs are
-// recorded; finish() submits them at once, waits, and brings results back.
+// A device that computes: buffers in its memory, and programs that read and write them. Uploads and runs of programs
+// are recorded. finish() submits them together, waits, and downloads results.
 //
 // A failure of the device throws DeviceFailed; the caller can then do the same work on the CPU.
 #pragma once
@@ -24,7 +24,7 @@ struct DeviceFailed : Error {
     using Error::Error;
 };
 
-// It has no memory left, or no buffer so large; less work at once may need less.
+// The device has not enough memory, or no buffer of this size. Less work at once may need less.
 struct DeviceFull : DeviceFailed {
     using DeviceFailed::DeviceFailed;
 };
@@ -79,11 +79,11 @@ public:
 
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);
-    // Makes each buffer hold at least so many bytes. A new one has some room to grow. If the device has no memory for
-    // one of them, all are given back.
+    // Makes each buffer hold at least so many bytes; a new buffer has some room to grow. If one of them cannot be made,
+    // frees all of them and throws.
     void make_room(std::vector<Buffer> &buffers, std::span<const std::size_t> bytes);
 
-    // The following are recorded. Each sees what those before it wrote.
+    // These four functions record work. Each piece of work sees what earlier work wrote.
 
     // `at`: position in the buffer, bytes.
     void upload(Buffer &to, std::span<const std::byte> from, std::size_t at = 0);
@@ -94,8 +94,8 @@ public:
     void run(const Program &program, std::span<const Buffer> buffers, std::span<const std::byte> push,
              const std::array<std::uint32_t, 3> &groups);
 
-    // Submits what was recorded, waits until it is done, and brings these results. Operating systems end work that
-    // takes seconds, so work that takes long is finished piece by piece.
+    // Submits the recorded work, waits until it is done, and downloads these results. Operating systems end a
+    // submission that takes seconds, so callers must finish long work piece by piece.
     void finish(std::span<const Download> results = {});
 
     // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0. `name`: for the times.

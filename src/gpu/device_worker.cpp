@@ -21,7 +21,7 @@ void DeviceWorker::unless_lost(std::size_t units, const std::function<void()> &w
     const std::size_t before = counted(report);
     const char *why = "the device failed";
     if (!lost_) try {
-            device.finish(); // what work that ended early left recorded keeps memory
+            device.finish(); // frees the memory of work that ended early
             return work();
         } catch (const DeviceFull &full) {
             report.failure = full.what();
@@ -43,7 +43,7 @@ void DeviceWorker::by_stripes(std::size_t units, std::size_t most,
             begin += count;
         } catch (const DeviceFull &) {
             if (count == 1) throw;
-            device.finish(); // what was recorded keeps memory
+            device.finish(); // frees the memory of recorded work
             at_once_ = pieces_of(count, std::size_t{2});
         }
     }

@@ -1,4 +1,5 @@
-// Work on a device, which ends when the device fails. The report counts what the device did, and what is left to the CPU.
+// Work on a device, which ends when the device fails. The report counts the work that the device did, and the work that
+// is left to the CPU.
 #pragma once
 
 #include "base/progress.h"
@@ -20,7 +21,7 @@ public:
     // device has not enough memory, or fails, or has failed before.
     void unless_lost(std::size_t units, const std::function<void()> &work);
 
-    // Works on `units`, at most so many at once. If the device is full, half as many are tried.
+    // Works on `units`, at most `most` at a time. If the device has not enough memory, tries half as many at a time.
     // work(begin, count): returns why the CPU has to do them; null: they are done.
     void by_stripes(std::size_t units, std::size_t most,
                     const std::function<const char *(std::size_t, std::size_t)> &work);

@@ -1,5 +1,5 @@
-// What a Device has of Vulkan (gpu/device.h): its memory, and the work that is recorded for it. Copies go piece by piece
-// through a staging buffer that host and device both see. Each submission waits for a fence.
+// The Vulkan objects of a Device (gpu/device.h), and the work that is recorded for it. Uploads and downloads pass
+// through a staging buffer that both the host and the device can access. Each submission waits for a fence.
 #pragma once
 
 #include "base/progress.h"
@@ -35,7 +35,7 @@ struct Device::Vulkan {
         vk::raii::DescriptorPool pool;
         vk::raii::DescriptorSets sets;
     };
-    // What the next submission does.
+    // The work of the next submission.
     struct Recorded {
         vk::raii::CommandBuffers commands;                    // one
         std::vector<std::shared_ptr<const void>> in_use = {}; // until it is done
@@ -53,7 +53,7 @@ struct Device::Vulkan {
     vk::PhysicalDeviceMemoryProperties memories;
     double tick_ms = 0; // of the device's clock
     std::optional<vk::raii::QueryPool> clock;
-    std::shared_ptr<Buffer::Memory> staging; // seen by host and device; made when it is first needed
+    std::shared_ptr<Buffer::Memory> staging; // made when it is first needed
     std::byte *staged = nullptr;             // its bytes as this process sees them
     std::size_t filled = 0;                  // of them, by what is recorded
     std::optional<Recorded> recorded;

@@ -222,7 +222,8 @@ constexpr std::uint32_t blocks_in_run = 8; // as wide as a tile
 struct Box {
     float left, right, top, bottom;
 
-    // How far bounds [x_min, x_max] x [y_min, y_max] have to move along an axis to reach the box; at most 0: not at all.
+    // Returns how far bounds [x_min, x_max] x [y_min, y_max] must move along an axis to reach the box. 0 or less: they
+    // touch it already.
     template <typename Bounds>
     float distance(const Bounds &b) const {
         return std::max({left - b.x_max, b.x_min - right, top - b.y_max, b.y_min - bottom});
@@ -269,7 +270,7 @@ ReachingCocs BlockFinder::find(const Imath::V2i &origin, int size, float stretch
             found.push_back(b);
             largest = std::max(largest, largest_coc_of(block));
             largest_shown = std::max(largest_shown, block.coc_shown);
-            // samples with a smaller CoC do not come so far
+            // samples with a smaller CoC do not reach the box
             cocs.least =
                 std::min(cocs.least, std::max(block.coc_least, (distance - 1) / (extent_ * stretched)));
             cocs.with_background = cocs.with_background || block.has_background;

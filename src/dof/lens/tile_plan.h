@@ -28,7 +28,7 @@ namespace sparselens {
 struct ReachingCocs {
     // The largest that shows. Backgrounds count only where something opaque hides them.
     float largest = 0;
-    // At most the smallest: of a block, samples that move less far than the block is away do not count.
+    // A lower bound of the smallest.
     float least = std::numeric_limits<float>::max();
     bool with_background = false; // whether a background reaches it
 };

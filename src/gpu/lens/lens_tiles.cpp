@@ -57,7 +57,7 @@ constexpr std::uint32_t code[] = {
 #include <lens_tile.comp.inc>
 };
 
-constexpr std::size_t tiles_at_once = 512; // because of the memory that their lists take
+constexpr std::size_t tiles_at_once = 512; // limits the memory of their lists
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
 std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 

@@ -42,7 +42,7 @@ private:
     std::map<std::uint32_t, Program> programs_;   // by their rules; made when they are first needed
     std::array<OnDevice<SceneArrays>, 2> scenes_; // the picture's, and the last coarse one
     OnDevice<TileLists> lists_;                   // of the last stripe
-    std::vector<Buffer> made_;                    // from it: values, what is known, sums between passes
+    std::vector<Buffer> made_;                    // its results: values, what is known, sums between passes
 };
 
 } // namespace sparselens::gpu

@@ -8,7 +8,7 @@ namespace sparselens::gpu {
 
 namespace {
 
-// The number of samples or facets. Those of a block follow those of the block before.
+// Returns the number of samples or facets of all blocks, which are stored one block after the other.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
 // Places samples from `first` on. `hiding`: for the upper halves of keys.

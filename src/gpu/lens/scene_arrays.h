@@ -1,5 +1,5 @@
 // A scene of the lens gather, laid out as lens_tile.comp reads it. It has all samples. It stays on the device while
-// tiles are gathered from it, and data that a new frame does not change stay for that frame.
+// tiles are gathered from it, and data that a new frame does not change are not copied again.
 #pragma once
 
 #include "dof/lens/gather_scene.h"

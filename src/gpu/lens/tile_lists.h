@@ -1,4 +1,4 @@
-// Tiles that are gathered at once, and what each is gathered from, as lens_tile.comp reads it.
+// The lists that a group of tiles is gathered from, in the layout that lens_tile.comp reads.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -31,7 +31,7 @@ struct TileLists {
 double turns_of(const GatherScene &scene, const TileTask &task);
 
 // The lens points of each task are taken `points` at a time, in passes, because operating systems end work that takes
-// seconds. `most_turns`: of a work group in a pass; at least turns_of() for each task.
+// seconds. `most_turns`: the largest number of a work group in a pass; at least turns_of() for each task.
 TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, std::uint32_t points,
                    double most_turns);
 

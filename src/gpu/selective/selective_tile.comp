@@ -2,9 +2,10 @@
 // The selective gather of a tile: the same as src/dof/selective/selective.cpp, with the same sums in the same order.
 //
 // A work group takes the pieces that its tile lists (splat_lists.h), front to back. If the discs of a block cover the
-// tile, the sums of the block are all that it needs. Of other blocks, it brings a chunk of splats into shared memory,
-// with the chords of each disc along the edges of the tile's columns and rows; then each thread adds to its pixels what
-// the discs bring there, splat after splat. At the end of a bin, the sums become a layer of each pixel, or a part of one.
+// tile, it adds the sums of the block to all pixels. It loads the splats of other blocks into shared memory, chunk by
+// chunk, with the chords of each disc along the edges of the tile's columns and rows. Then each thread adds the light
+// of these discs to its pixels, splat after splat. At the end of a bin, the sums become a layer of each pixel, or part
+// of a layer.
 // Every sum belongs to one thread.
 //
 // Work that takes long is cut into passes: all state of a thread goes to buffers at the end of a pass and comes back at

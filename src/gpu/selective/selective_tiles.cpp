@@ -18,7 +18,7 @@ constexpr std::uint32_t code[] = {
 };
 
 constexpr std::uint32_t bindings = 13;
-constexpr std::size_t tiles_at_once = 256; // because of the memory that their layers take
+constexpr std::size_t tiles_at_once = 256; // limits the memory of their layers
 constexpr double steps_in_pass = 5e4;      // of a tile
 
 using Bytes = std::span<const std::byte>;

@@ -6,7 +6,7 @@ layout(binding = 1) readonly buffer SplatValues { float splat_values[]; };
 layout(binding = 2) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 3) readonly buffer Sums { double sums[]; };               // [block]: the same, divided by disc areas
 layout(binding = 4) readonly buffer Lists { uint lists[]; };               // what a tile visits, front to back
-layout(binding = 5) readonly buffer Cuts { uint cuts[]; };                 // [tile][pass]: where the pass begins in lists[]
+layout(binding = 5) readonly buffer Cuts { uint cuts[]; };                 // [tile][pass]: where the pass begins in them
 layout(binding = 6) readonly buffer Tiles { Tile tiles[]; };
 // Kept between passes: [tile][group], then [layer][sum][pixel], [layer][pixel], [count, last bin][pixel], and
 // [sum][pixel] followed by what all pixels of the tile get.

@@ -1,4 +1,4 @@
-// What tiles of the selective gather are gathered from, as selective_tile.comp reads it.
+// The lists of splats that tiles of the selective gather visit, in the layout that selective_tile.comp reads.
 //
 // The list of a tile is cut into passes. Each takes a limited number of steps, which are turns of the program's loops,
 // because operating systems end work that takes seconds. A tile that is done sooner has empty passes at the end.
@@ -37,7 +37,7 @@ SplatState state_of(const SplatScene &scene, std::size_t tiles);
 SplatPieces cut(const SplatBlocks &splats);
 std::size_t groups_of(const SplatBlocks &splats); // of four colours
 
-// `most_steps`: of a tile in a pass, if it can be cut so short.
+// `most_steps`: the largest number of steps of a tile in a pass. A single piece may take more.
 SplatLists lists_of(const SplatScene &scene, const SplatPieces &pieces, std::span<const SplatTask> tasks,
                     double most_steps);
 

@@ -1,6 +1,6 @@
 #version 460
-// Replaces each number by the sum of those before it. A work group takes a chunk of the numbers. The first run finds the
-// sum of each chunk. In the second one, each group adds the sums of the chunks before its own.
+// Replaces each number by the sum of those before it. A work group takes a chunk of the numbers. The first run finds
+// the sum of each chunk. In the second run, each group adds the sums of the chunks before its own.
 
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/warp_layout.h"

@@ -20,8 +20,8 @@ layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
 layout(binding = 4) readonly buffer Weights { float weights[]; }; // [sample]
 layout(binding = 5) readonly buffer Values { uint values[]; };    // [channel][sample], bits
 layout(binding = 6) readonly buffer Ids { uint ids[]; };          // [channel]: 1 for ids, which are copied
-// [pixel]: see first_of(). Two entries follow: the number of all; not 0 if a pixel has more samples than
-// frame.most_in_pixel.
+// [pixel]: see first_of(). Two entries follow: the number of all samples; and 1 if a pixel has more samples than
+// frame.most_in_pixel, else 0.
 layout(binding = 7) buffer Ends { uint ends[]; };
 // samples in the pixels that they fell into: index, dx, dy, 1 / z (bits)
 layout(binding = 8) buffer Landed { uvec4 landed[]; };

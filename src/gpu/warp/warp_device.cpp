@@ -121,7 +121,7 @@ std::size_t sample_count(const ReprojectedViews &views) {
     return count;
 }
 
-warp_kernel::Frame frame_of(const WarpScene &scene, std::uint32_t most_in_pixel) {
+warp_kernel::Frame frame_of(const WarpScene &scene, std::size_t samples, std::uint32_t most_in_pixel) {
     warp_kernel::Frame frame{};
     frame.tolerance = scene.tolerance;
     frame.inverse_scale = 1 / scene.scale;
@@ -132,7 +132,7 @@ warp_kernel::Frame frame_of(const WarpScene &scene, std::uint32_t most_in_pixel)
     frame.width = windows.width();
     frame.height = windows.height();
     frame.views = std::uint32_t(scene.views.size());
-    frame.samples = std::uint32_t(sample_count(scene.views));
+    frame.samples = std::uint32_t(samples);
     frame.channels = std::uint32_t(scene.layout.channels.size());
     const std::size_t alpha = find_channel(scene.layout.channels, "A");
     frame.alpha = alpha == npos ? warp_kernel::none : std::uint32_t(alpha);
@@ -153,7 +153,7 @@ warp_kernel::Frame frame_of(const WarpScene &scene, std::uint32_t most_in_pixel)
 // One warp: views are uploaded, samples of the LDI are downloaded.
 class WarpWork {
 public:
-    // Records all of it. `most`: samples in a pixel.
+    // Records the whole warp. `most`: the largest number of samples in a pixel.
     WarpWork(Device &device, WarpKernels &kernels, const WarpScene &scene, std::uint32_t most)
         : device_(device), kernels_(kernels), scene_(scene) {
         const std::size_t samples = sample_count(scene.views), channels = scene.layout.channels.size(),
@@ -163,7 +163,7 @@ public:
                                     all_begins * 4, samples * 4, samples * 4, channels * samples * 4,
                                     channels * 4, (pixels_ + 2) * 4, samples * 16, samples * 8, samples * 8,
                                     blocks_ * 4, (pixels_ + 1) * 4, (4 + channels) * samples * 4});
-        const warp_kernel::Frame constants = frame_of(scene, most);
+        const warp_kernel::Frame constants = frame_of(scene, samples, most);
         upload(frame, std::span(&constants, 1));
         upload(views, std::span(views_));
         upload_views(samples);
@@ -176,7 +176,7 @@ public:
 
     std::size_t uploaded() const { return uploaded_; } // bytes
 
-    // Does it. Returns nothing if some pixel has too many samples.
+    // Submits the warp, and downloads the LDI. Returns nothing if some pixel has too many samples.
     std::optional<Ldi> finish() {
         std::uint32_t too_many = 0;
         std::vector<std::uint32_t> begin(pixels_ + 1);

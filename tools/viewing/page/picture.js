@@ -1,5 +1,5 @@
 // The picture: while settings change, the finest drafts that allow ten a second; then the whole picture.
-const drafts = [[1, 'normal', 3], ...[1, 2, 3, 4, 6, 8, 12, 16].map((proxy) => [proxy, 'draft', 1 / proxy ** 2])]; // and work
+const drafts = [[1, 'normal', 3], ...[1, 2, 3, 4, 6, 8, 12, 16].map((proxy) => [proxy, 'draft', 1 / proxy ** 2])]; // [proxy, quality, work]
 const state = {
     facts: null,
     settings: {},    // options of dof-gather that this page has set
@@ -36,7 +36,7 @@ function draw(canvas, data) {
     canvas.getContext('2d').putImageData(data, 0, 0);
 }
 
-// Shows the answer, if there is one, and how long it took and the device that gathered it, if any. `what`: the name of a draft.
+// Shows the answer, if there is one, the time that it took, and the device that gathered it. `what`: the name of the picture.
 async function show(response, quality, begun, what = quality) {
     if (!response) return null;
     const { said, data } = await pictureOf(response);
