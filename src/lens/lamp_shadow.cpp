@@ -104,13 +104,23 @@ void LampShadow::begin(const Imath::Box2i &box, bool fine) {
     veil_.assign(pixels, 1);
 }
 
-float LampShadow::lit(int x, int y, const LampDisc *disc, const LampShadow *other) const {
-    const std::size_t i = at(x, y);
-    const std::uint64_t hidden = hidden_[i] | (other ? other->hidden_[i] : 0);
-    const float veil = veil_[i] * (other ? other->veil_[i] : 1);
+void LampShadow::add(const LampShadow &other, const Imath::V2i &moved) {
+    lit_pixels_ = 0;
+    for (int y = box_.min.y; y <= box_.max.y; ++y) {
+        const std::size_t from = other.at(box_.min.x - moved.x, y - moved.y), to = at(box_.min.x, y);
+        for (std::size_t x = 0; x < width_; ++x) {
+            hidden_[to + x] |= other.hidden_[from + x];
+            veil_[to + x] *= other.veil_[from + x];
+            lit_pixels_ += ~hidden_[to + x] != 0;
+        }
+    }
+}
+
+float LampShadow::lit(int x, int y, const LampDisc *disc) const {
+    const std::uint64_t hidden = hidden_[at(x, y)];
     const bool crossed = disc && hidden != 0 && ~hidden != 0 && !disc->contains_pixel(x, y);
-    return veil * (crossed ? lit_points(hidden, x, y, *disc)
-                           : float(points - std::popcount(hidden)) * (1.0f / points));
+    return veil_[at(x, y)] * (crossed ? lit_points(hidden, x, y, *disc)
+                                      : float(points - std::popcount(hidden)) * (1.0f / points));
 }
 
 void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing) {

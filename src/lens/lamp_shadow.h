@@ -56,6 +56,9 @@ public:
     // Adds the shadow of a thing that covers a rectangle and hides a share `alpha` of the light, (0, 1].
     void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
 
+    // Adds the shadows of `other`, moved by whole pixels. Its box must then cover this one.
+    void add(const LampShadow &other, const Imath::V2i &moved);
+
     // Whether all of the box is hidden.
     bool dark() const { return lit_pixels_ == 0; }
 
@@ -66,8 +69,7 @@ public:
     }
 
     // The share of a pixel of the box that is not hidden: of the whole pixel, or of its part that lies in a disc.
-    // Shadows of `other`, which has the same box, count too.
-    float lit(int x, int y, const LampDisc *disc = nullptr, const LampShadow *other = nullptr) const;
+    float lit(int x, int y, const LampDisc *disc = nullptr) const;
 
 private:
     std::size_t at(int x, int y) const {

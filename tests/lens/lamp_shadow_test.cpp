@@ -75,19 +75,33 @@ TEST(LampShadow, CountsWhatLiesInADisc) {
 }
 
 TEST(LampShadow, OfTwoHidesWhatEitherHides) {
+    const Imath::V2i moved(2, -1);
+    const auto at = [](float x, float y, const Imath::V2i &by) {
+        return Imath::Box2f(Imath::V2f(by), Imath::V2f(by) + Imath::V2f(x, y));
+    };
     LampShadow one, other, both;
-    for (LampShadow *shadow : {&one, &other, &both}) shadow->begin(box);
-    const Imath::Box2f left({0, 0}, {3.3f, 19}), above({0, 0}, {19, 4.6f});
-    one.hide(left, 1, 0);
-    other.hide(above, 0.5f, 1);
-    both.hide(left, 1, 0);
-    both.hide(above, 0.5f, 1);
+    one.begin(box);
+    both.begin(box);
+    other.begin({box.min - Imath::V2i(2), box.max + Imath::V2i(2)});
+    for (LampShadow *shadow : {&one, &both}) {
+        shadow->hide(at(3.3f, 19, {0, 0}), 1, 0);
+        shadow->hide(at(19, 2, {0, 0}), 0.1f, 2); // a veil
+    }
+    other.hide(at(19, 5.6f, {0, 0}), 0.5f, 1);
+    other.hide(at(2.5f, 19, {0, 0}), 0.05f, 3);
+    both.hide(at(19, 5.6f, moved), 0.5f, 1);
+    both.hide(at(2.5f, 19, moved), 0.05f, 3);
+    one.add(other, moved);
     const LampDisc disc{{3, 4}, {2, 2}};
     for (int y = 2; y < 7; ++y)
         for (int x = 2; x < 5; ++x) {
-            EXPECT_EQ(one.lit(x, y, nullptr, &other), both.lit(x, y));
-            EXPECT_EQ(one.lit(x, y, &disc, &other), both.lit(x, y, &disc));
+            EXPECT_FLOAT_EQ(one.lit(x, y), both.lit(x, y));
+            EXPECT_FLOAT_EQ(one.lit(x, y, &disc), both.lit(x, y, &disc));
         }
+    EXPECT_FALSE(one.dark());
+    other.hide(at(99, 99, {-9, -9}), 1, 4);
+    one.add(other, moved);
+    EXPECT_TRUE(one.dark());
 }
 
 TEST(LampShadow, JoinsNeighboursWithoutACrackAndCountsNothingTwice) {

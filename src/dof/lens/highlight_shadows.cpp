@@ -15,15 +15,6 @@ namespace {
 
 constexpr float one_lamp = GatherTuning::one_lamp;
 
-// Returns the CoCs, as shares of the lamp's CoC, of casters whose shadow on a member of a group is at most a fiftieth
-// of the disc's radius off from the shadow on the middle member. It is off by |1 - m| times the distance of the two
-// members, with m as in lamp_shadow.h.
-CocRange shared_cocs(const ShadowedLamp &group) {
-    constexpr double of_radius = GatherTuning::shared_shadow_of_radius;
-    const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
-    return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
-}
-
 // The name of a block's first sample as a caster: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
     constexpr int blocks = lens_tile_size / BlockedSamples::size;
@@ -41,24 +32,6 @@ const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedL
     if (!casters.is_coarse()) return block.apart_from(lamp.depth, lamp.hardly);
     return block.apart_from(search_.far_before(lamp.depth, lamp.lamp.coc) / casters.across,
                             lamp.far / casters.across);
-}
-
-// Whether the shadows of a block's casters in front of a group differ from lamp to lamp.
-bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b) const {
-    const ShadowCasters &casters = search_.casters(b.set);
-    const BlockedSamples &samples = casters.samples;
-    const SampleBlock &block = samples.blocks[b.number];
-    const auto [farthest, nearest] =
-        search_.range_of(group, casters, {{block.x_min, block.y_min}, {block.x_max, block.y_max}});
-    const CocRange shared = shared_cocs(group);
-    const float to_share = casters.across / float(group.lamp.coc);
-    for (const auto &[footprint, depth, to, sample] : casters_of(group, b)) {
-        if (!(depth > farthest) || depth > nearest) continue;
-        const Float4 share = to_share * load4(footprint.coc.data());
-        const auto within = (share >= shared.least) & (share <= shared.most);
-        if ((within[0] & within[1] & within[2] & within[3]) == 0) return true;
-    }
-    return false;
 }
 
 void HighlightShadows::begin(const Imath::V2i &origin, double pixel_aspect, const Imath::V2d &extent,
@@ -99,8 +72,7 @@ std::vector<CastingBlock> HighlightShadows::blocks_of_disc(const ShadowedLamp &l
     whole.screen.box = {{pixel(middle.x - reach.x), pixel(middle.y - reach.y)},
                         {pixel(middle.x + reach.x), pixel(middle.y + reach.y)}};
     std::vector<CastingBlock> blocks;
-    search_.for_each(whole, [&](CastingBlock block) {
-        block.apart = group_ && is_apart(whole, block);
+    search_.for_each(whole, [&](const CastingBlock &block) {
         blocks.push_back(block);
         return true;
     });
@@ -114,11 +86,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
     const std::vector<CastingBlock> *list =
         lists_ && !lamp.screen.fine ? lists_->of(first_member, [&] { return blocks_of_disc(lamp); })
                                     : nullptr;
-    if (!list)
-        return search_.for_each(lamp, [&](CastingBlock block) {
-            block.apart = group_ && is_apart(lamp, block);
-            return visit(block);
-        });
+    if (!list) return search_.for_each(lamp, visit);
     constexpr float rounding = 0.01f; // pixels: by how much the list may be off
     const Imath::V2i first = lamp.screen.box.min + origin_, last = lamp.screen.box.max + origin_;
     const Imath::Box2f box(Imath::V2f(first) - Imath::V2f(rounding),
@@ -128,7 +96,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
 }
 
 void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::Box2i &box) {
-    shared_.any = false;
+    in_place_.any = in_disc_.any = false;
     is_moved_ = highlights_.among(samples_).is_moved(group.front());
     group_.reset();
     apart_.clear();
@@ -151,16 +119,41 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
         group_->spread = std::max(group_->spread, (member.centre - lamp.centre).length());
         group_->cocs = std::max(group_->cocs, std::abs(member.coc - lamp.coc));
     }
+    const Imath::V2i moves(int(std::ceil(group_->spread)));
+    in_place_.box = box;
+    in_disc_.box = {box.min - moves, box.max + moves};
     for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
-        const ShadowSearch::Range range = search_.range_of(*group_, search_.casters(b.set));
-        for_each_caster(*group_, b, [&](const Caster &caster) {
-            if (!b.apart)
-                cast_one(*group_, range, caster, shared_);
-            else if (may_cast(*group_, caster))
+        const ShadowCasters &casters = search_.casters(b.set);
+        const ShadowSearch::Range range = search_.range_of(*group_, casters);
+        // coarse casters hide the farthest members before they hide the nearest
+        const float from = casters.is_coarse() ? search_.far_before(group_->depth, lamp.coc) / casters.across
+                                               : range.farthest;
+        for_each_caster(*group_, b, {from, range.nearest}, [&](const Caster &caster) {
+            const ShadowEdges edges = edges_of(*group_, caster);
+            if (Shadow *shared = shared_by_all(edges))
+                cast_one(*shared, *group_, range, caster, edges);
+            else if (may_cast(*group_, caster, edges))
                 apart_.push_back(caster);
         });
-        return !shared_.dark(); // no other shadow changes that
+        return !dark(); // no other shadow changes that
     });
+}
+
+// By how many whole pixels a member lies from the middle of its group.
+Imath::V2i HighlightShadows::moved(std::uint32_t member) const {
+    const Imath::V2d apart = lamp(member).centre - group_->lamp.centre;
+    return {int(std::lround(apart.x)), int(std::lround(apart.y))};
+}
+
+// Returns the shadow of the group that these edges belong to, or null if it differs from member to member.
+HighlightShadows::Shadow *HighlightShadows::shared_by_all(const ShadowEdges &edges) {
+    const auto most = float(GatherTuning::shared_shadow_of_radius * std::abs(group_->lamp.coc) /
+                            std::max(group_->spread, 1e-3));
+    const auto all = [&](const Float4 &off) {
+        const auto within = (off <= most) & (off >= -most);
+        return (within[0] & within[1] & within[2] & within[3]) != 0;
+    };
+    return all(1 - edges.magnified) ? &in_place_ : all(edges.magnified) ? &in_disc_ : nullptr;
 }
 
 bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen) {
@@ -171,34 +164,39 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     const float far = search_.far_before(depth, group_ ? group_->lamp.coc : lamp.coc);
     const ShadowedLamp asked{sample, lamp, origin_, screen, depth, depth + one_surface_px, far, {at, at}};
     own_.any = false;
+    own_.box = screen.box;
     if (!group_)
         for_each_block(asked, highlight, [&](const CastingBlock &b) {
             const ShadowSearch::Range range = search_.range_of(asked, search_.casters(b.set));
-            for_each_caster(asked, b, [&](const Caster &caster) { cast_one(asked, range, caster, own_); });
+            for_each_caster(asked, b, range, [&](const Caster &caster) {
+                cast_one(own_, asked, range, caster, edges_of(asked, caster));
+            });
             return !own_.dark(); // no other shadow changes that
         });
     ShadowSearch::Range range{};
     for (const ShadowCasters *of = nullptr; const Caster &caster : apart_) {
         if (of != caster.of) of = caster.of, range = search_.range_of(asked, *of);
-        cast_one(asked, range, caster, own_);
+        cast_one(own_, asked, range, caster, edges_of(asked, caster));
         if (own_.dark()) break;
     }
-    return shared_.any || own_.any;
+    if (!group_ || !(own_.any || in_disc_.any)) return own_.any || in_place_.any;
+    if (in_place_.any) own_.add(in_place_, {0, 0});
+    if (in_disc_.any) own_.add(in_disc_, moved(highlight));
+    return true;
 }
 
 float HighlightShadows::lit(int x, int y, const LampDisc *disc) const {
-    return own_.any ? own_.lamp.lit(x, y, disc, shared_.any ? &shared_.lamp : nullptr)
-                    : shared_.lamp.lit(x, y, disc);
+    return (own_.any ? own_ : in_place_).lamp.lit(x, y, disc);
 }
 
 template <typename Visit>
 void HighlightShadows::for_each_caster(const ShadowedLamp &lamp, const CastingBlock &b,
-                                       const Visit &visit) const {
+                                       const ShadowSearch::Range &range, const Visit &visit) const {
     const ShadowCasters &casters = search_.casters(b.set);
     const std::uint32_t first = casters.samples.blocks[b.number].begin,
                         name = name_of(b.number, casters.samples.columns);
     for (const JoinedFootprint &joined : casters_of(lamp, b))
-        visit(Caster{&casters, &joined, name + (joined.sample - first)});
+        if (range.has(joined.depth)) visit(Caster{&casters, &joined, name + (joined.sample - first)});
 }
 
 // Whether `sample` is another highlight's, in another pixel, and no nearer than a part of the same lamp would be.
@@ -232,30 +230,27 @@ bool HighlightShadows::casts_hardly(const ShadowedLamp &lamp, float hardly, cons
            !lamp.is_beside({{place[0], place[2]}, {place[1], place[3]}});
 }
 
-// Whether the caster may cast a shadow on some member of the group.
-bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
-    const ShadowCasters &casters = *caster.of;
-    const float farthest =
-        casters.is_coarse() ? search_.far_before(group.depth, group.lamp.coc) / casters.across : group.depth;
-    const auto &[footprint, depth, to, sample] = *caster.joined;
-    if (!(depth > farthest && depth <= search_.range_of(group, casters).nearest)) return false;
-    if (casts_hardly(group, group.depth + one_surface_px, caster)) return false;
-    return ShadowEdges(group, casters.across, casters.corner, footprint).may_reach(group);
+ShadowEdges HighlightShadows::edges_of(const ShadowedLamp &lamp, const Caster &caster) {
+    return {lamp, caster.of->across, caster.of->corner, caster.joined->footprint};
 }
 
-void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range,
-                                const Caster &caster, Shadow &into) const {
-    const auto &[footprint, depth, to, sample] = *caster.joined;
-    if (!(depth > range.farthest && depth <= range.nearest)) return;
+// Whether the caster may cast a shadow on some member of the group.
+bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster, const ShadowEdges &edges) {
+    return !casts_hardly(group, group.depth + one_surface_px, caster) && edges.may_reach(group);
+}
+
+void HighlightShadows::cast_one(Shadow &into, const ShadowedLamp &lamp, const ShadowSearch::Range &range,
+                                const Caster &caster, const ShadowEdges &edges) const {
+    const std::uint32_t sample = caster.joined->sample;
+    if (!range.has(caster.joined->depth)) return;
     if (casts_hardly(lamp, lamp.hardly, caster) || is_in_mirror_of(lamp.sample, caster)) return;
-    const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, footprint);
     const Imath::Box2f shadow = edges.shadow();
-    if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
+    if (edges.as_blurred() || !reaches(shadow, into.box)) return;
     const float alpha = caster.of->samples.alpha[sample];
     const bool opaque = is_opaque(alpha); // as solids are
     if (!caster.of->is_coarse() && is_left_behind(lamp.sample, caster)) return;
     if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, sample)) return;
-    into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen);
+    into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen.fine);
 }
 
 } // namespace sparselens

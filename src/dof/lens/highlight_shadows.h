@@ -7,10 +7,11 @@
 // a tenth nearer do not hide each other: they are lamps smaller than a pixel, side by side.
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
-// costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart, with m as in
-// lamp_shadow.h. If that is at most a fiftieth of the disc's radius, the members of a group (highlights.h) use
-// the shadow on the member in their middle. The shadows of casters that are closer to the lamp in depth are cast for
-// each member.
+// costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart in the
+// picture, and m w apart relative to the discs, with m as in lamp_shadow.h. If one of these is at most a hundredth of the
+// disc's radius, the members of a group (highlights.h) share the shadow on the member in their middle: in its place if
+// the caster is near the focus, or moved with the disc, by whole pixels, if the caster is far in front of the lamp.
+// Other shadows are cast for each member.
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
@@ -59,15 +60,15 @@ public:
     bool cast(std::uint32_t highlight, const ShadowScreen &screen);
 
     // Whether all of the box is hidden from the whole group.
-    bool dark() const { return shared_.dark(); }
+    bool dark() const { return in_place_.dark() || in_disc_.dark(); }
 
     // As LampShadow::lit().
     float lit(int x, int y, const LampDisc *disc = nullptr) const;
 
-    // Whether the member last given to cast() has no shadows but the shared ones.
-    bool only_shares() const { return shared_.any && !own_.any; }
-    float shared_lit(int x, int y) const { return shared_.lamp.lit(x, y); }
-    bool is_shared_crossed(int x, int y) const { return shared_.lamp.is_crossed(x, y); }
+    // Whether the member last given to cast() has no shadows but those that lie in one place for the whole group.
+    bool only_shares() const { return in_place_.any && !own_.any; }
+    float shared_lit(int x, int y) const { return in_place_.lamp.lit(x, y); }
+    bool is_shared_crossed(int x, int y) const { return in_place_.lamp.is_crossed(x, y); }
 
     // The result of cast() for a group of one.
     const LampShadow &own() const { return own_.lamp; }
@@ -77,35 +78,47 @@ public:
 private:
     struct Shadow {
         LampShadow lamp;
+        Imath::Box2i box; // of the pixels or cells that it is cast on
         bool any = false; // whether anything casts it
 
-        void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing,
-                  const ShadowScreen &screen) {
-            if (!any) lamp.begin(screen.box, screen.fine);
-            any = true;
+        void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing, bool fine) {
+            begin(fine);
             lamp.hide(rectangle, alpha, thing);
         }
+        void add(const Shadow &other, const Imath::V2i &moved) {
+            begin(false);
+            lamp.add(other.lamp, moved);
+        }
         bool dark() const { return any && lamp.dark(); }
+
+    private:
+        void begin(bool fine) {
+            if (!any) lamp.begin(box, fine);
+            any = true;
+        }
     };
     Imath::V2f place(std::uint32_t highlight) const; // relative to the data window's corner
     std::uint32_t middle_of(std::span<const std::uint32_t> group) const;
     template <typename Visit>
     void for_each_block(const ShadowedLamp &lamp, std::uint32_t first_member, const Visit &visit) const;
     std::vector<CastingBlock> blocks_of_disc(const ShadowedLamp &lamp) const;
-    bool is_apart(const ShadowedLamp &group, const CastingBlock &block) const;
+    Imath::V2i moved(std::uint32_t member) const;
+    Shadow *shared_by_all(const ShadowEdges &edges);
     struct Caster {
         const ShadowCasters *of;
         const JoinedFootprint *joined; // its depth is in the pixels of these casters
         std::uint32_t name;
     };
     template <typename Visit>
-    void for_each_caster(const ShadowedLamp &lamp, const CastingBlock &block, const Visit &visit) const;
+    void for_each_caster(const ShadowedLamp &lamp, const CastingBlock &block,
+                         const ShadowSearch::Range &range, const Visit &visit) const;
     const std::vector<JoinedFootprint> &casters_of(const ShadowedLamp &lamp, const CastingBlock &block) const;
     bool is_in_mirror_of(std::uint32_t lamp_sample, const Caster &caster) const;
     static bool casts_hardly(const ShadowedLamp &lamp, float hardly, const Caster &caster);
-    bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
-    void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,
-                  Shadow &into) const;
+    static ShadowEdges edges_of(const ShadowedLamp &lamp, const Caster &caster);
+    static bool may_cast(const ShadowedLamp &group, const Caster &caster, const ShadowEdges &edges);
+    void cast_one(Shadow &into, const ShadowedLamp &lamp, const ShadowSearch::Range &range,
+                  const Caster &caster, const ShadowEdges &edges) const;
     bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
     bool is_left_behind(std::uint32_t lamp_sample, const Caster &caster) const;
 
@@ -119,7 +132,8 @@ private:
     bool is_moved_ = false;             // whether the group is moved along a path
     std::optional<ShadowedLamp> group_; // set for a group of several samples
     std::vector<Caster> apart_;         // casters whose shadows differ between the members of the group
-    Shadow shared_, own_;
+    Shadow in_place_, in_disc_;         // of the group; in_disc_ is that of its middle lamp
+    Shadow own_;                        // of a member; has the group's too, unless they are all in place
 };
 
 } // namespace sparselens

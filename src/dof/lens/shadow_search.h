@@ -80,7 +80,6 @@ struct ShadowedLamp {
 struct CastingBlock {
     std::uint32_t number, set; // the block, and the number of its set of casters
     Imath::Box2f shadow;       // where it may lie on the lamp's screen
-    bool apart = false;        // whether its shadow differs between the lamps of a group
 };
 
 class ShadowSearch {
@@ -94,6 +93,7 @@ public:
     // The range of disparities, in the pixels of a set of casters, in which its casters cast shadows.
     struct Range {
         float farthest, nearest;
+        bool has(float depth) const { return depth > farthest && depth <= nearest; }
     };
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
     // The same for casters that lie in a box.

@@ -1,4 +1,4 @@
-// The pixels of one lamp share shadows, which equal the shadows for each pixel to within a fiftieth of the disc.
+// The pixels of one lamp share shadows, which equal the shadows for each pixel to within a hundredth of the disc.
 #include "base/numbers.h"
 #include "dof/lens/block_footprints.h"
 #include "dof/lens/blocked_fixture.h"
@@ -47,13 +47,13 @@ struct LampBehindBoards : BlockedLdi {
             return samples;
         });
     }
-    static Ldi scene(double boards) {
+    static Ldi scene(double boards, double coc = lamp_coc) {
         return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
             if (random_unit(x / 16, y / 16, 1) < 0.4)
                 samples.push_back({depth_of(lens, boards - random_unit(x / 16, y / 16, 2)), {0, 0, 0, 1}});
-            if (is_lamp(x, y)) samples.push_back({depth_of(lens, lamp_coc), {900, 900, 900, 1}});
-            samples.push_back({depth_of(lens, lamp_coc + 9), {1, 1, 1, 1}});
+            if (is_lamp(x, y)) samples.push_back({depth_of(lens, coc), {900, 900, 900, 1}});
+            samples.push_back({depth_of(lens, coc + 9), {1, 1, 1, 1}});
             return samples;
         });
     }
@@ -109,6 +109,27 @@ TEST(HighlightShadows, OfAGroupAreThoseOfEachSample) {
         EXPECT_LT(mean(alone), 0.95) << boards; // boards really hide the lamp
         EXPECT_GT(mean(alone), 0.1) << boards;
     }
+}
+
+// Relative to the discs, shadows on two members are at most 5.6 m pixels apart, which is less than a hundredth of this
+// disc's radius; in the picture, they are farther apart than that. They lie in a square of 64 m pixels.
+TEST(HighlightShadows, OfWhatIsFarInFrontMoveWithTheDiscs) {
+    constexpr double coc = 80, boards = -8 * coc, m = coc / (coc - boards + 1), square = 64 * m * 64 * m;
+    const Ldi ldi = LampBehindBoards::scene(boards, coc);
+    LampBehindBoards scene(ldi);
+    const std::vector<float> together = scene.lit(true), alone = scene.lit(false);
+    double off = 0, in_place = 0, hidden = 0; // in_place: if the shadow of one sample were used for all
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        off += std::abs(double(together[i] - alone[i]));
+        in_place += std::abs(double(alone[i % (size * size)] - alone[i]));
+        hidden += 1 - double(alone[i]);
+    }
+    const double lamps = double(scene.lamp.size());
+    EXPECT_LE(off / lamps, square * 2 * 4 * m / (16 * m) * 0.5);
+    EXPECT_GT(in_place, 2 * off);
+    EXPECT_GT(hidden / lamps, 0.1 * square);
+    EXPECT_LT(hidden / lamps, 0.9 * square);
+    EXPECT_GT(off, 0); // else they were not shared
 }
 
 // A list holds everything that casts on any tile of the disc, so tiles may be requested in any order.
