@@ -25,7 +25,7 @@
 namespace sparselens {
 
 // Highlights that are shadowed together (highlight_shadows.h): samples of one surface and one block, within a square of
-// 1/16 of their CoC. A sample near the focus is alone.
+// a quarter of their CoC. A sample near the focus is alone.
 
 // Where highlights are. A highlight is given by its index in `sample`.
 struct PlacedHighlights {
