@@ -27,9 +27,9 @@ struct GatherTuning {
     static constexpr double lamp_common = 0.3;
     // Octaves below a sample's brightness, down to which other samples count as bright as it.
     static constexpr double lamp_octave = 1;
-    // The size of a group of highlights, as a share of the CoC. Macro at 1920x1080, focused at 3 m behind what is near:
-    // 1/16 takes 79 CPU s, 1/8 takes 47, 1/4 takes 31 and 1/2 takes 28 CPU s; tone mapped, these pictures are 82, 69, 67
-    // and 64 dB from the picture without groups.
+    // The size of a group of highlights, as a share of the CoC. Macro at 1920x1080, focused at 3 m, far behind the
+    // objects: 1/16 takes 79 CPU s, 1/8 takes 47, 1/4 takes 31 and 1/2 takes 28 CPU s. Tone mapped, these pictures are
+    // 82, 69, 67 and 64 dB from the picture without groups.
     static constexpr float lamp_group_of_coc = 1.0f / 4;
     // Pixels of CoC. Smaller discs are shadowed in cells of the lens.
     static constexpr double lamp_in_cells_px = 3;

@@ -56,7 +56,7 @@ public:
     // Adds the shadow of a thing that covers a rectangle and hides a share `alpha` of the light, (0, 1].
     void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
 
-    // Adds the shadows of `other`, moved by whole pixels. Its box must then cover this one.
+    // Adds the shadows of `other`, moved by whole pixels. Its box, moved, must cover this box.
     void add(const LampShadow &other, const Imath::V2i &moved);
 
     // Whether all of the box is hidden.

@@ -95,8 +95,8 @@ TEST(LampShadow, OfTwoHidesWhatEitherHides) {
     const LampDisc disc{{3, 4}, {2, 2}};
     for (int y = 2; y < 7; ++y)
         for (int x = 2; x < 5; ++x) {
-            EXPECT_FLOAT_EQ(one.lit(x, y), both.lit(x, y));
-            EXPECT_FLOAT_EQ(one.lit(x, y, &disc), both.lit(x, y, &disc));
+            EXPECT_EQ(one.lit(x, y), both.lit(x, y));
+            EXPECT_EQ(one.lit(x, y, &disc), both.lit(x, y, &disc));
         }
     EXPECT_FALSE(one.dark());
     other.hide(at(99, 99, {-9, -9}), 1, 4);

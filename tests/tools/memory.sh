@@ -68,8 +68,8 @@ grown=$((peak - small)) allowed=$((170 * 3 * 640 * 360))
 printf 'five views %15d bytes more (at most %d)\n' $grown $allowed
 [ $grown -le $allowed ] || fail "ldi-warp: $small bytes at 640x360, $peak at 1280x720"
 
-# In cells, in bands of rows: the same as at once, even if the depth of everything is requested. All CoCs are larger than
-# 64 pixels. Bands take three fifths of the memory.
+# In cells, in bands of rows: the same as at once, even if the depth of everything is requested. All CoCs are larger
+# than 64 pixels. Bands take three fifths of the memory.
 exits 0 "$bin/sparselens-deep-scene" apart 48 2600 in.exr
 by=(-d float --lens-radius 1.5 --focus-distance 1.3 --threads 1)
 banded=$(python3 peak.py "$bin/dof-gather" in.exr -o banded.exr "${by[@]}")

@@ -125,7 +125,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
         const ShadowCasters &casters = search_.casters(b.set);
         const ShadowSearch::Range range = search_.range_of(*group_, casters);
-        // coarse casters hide the farthest members before they hide the nearest
+        // some coarse casters are far enough in front of the farthest member only
         const float from = casters.is_coarse() ? search_.far_before(group_->depth, lamp.coc) / casters.across
                                                : range.farthest;
         for_each_caster(*group_, b, {from, range.nearest}, [&](const Caster &caster) {

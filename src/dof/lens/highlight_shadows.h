@@ -8,10 +8,10 @@
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
 // costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart in the
-// picture, and m w apart relative to the discs, with m as in lamp_shadow.h. If one of these is at most a hundredth of the
-// disc's radius, the members of a group (highlights.h) share the shadow on the member in their middle: in its place if
-// the caster is near the focus, or moved with the disc, by whole pixels, if the caster is far in front of the lamp.
-// Other shadows are cast for each member.
+// picture, and m w apart relative to the discs, with m as in lamp_shadow.h. If one of these is at most a hundredth of
+// the disc's radius, the members of a group (highlights.h) share the shadow on the member in their middle. It stays in
+// place if the caster is near the focus. It moves with the disc, by whole pixels, if the caster is far in front of the
+// lamp. Other shadows are cast for each member.
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
