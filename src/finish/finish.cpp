@@ -232,18 +232,19 @@ struct Pixels {
 
 void load(const Pixels &pixels, const Imath::Box2i &box, Tile &tile) {
     const Grid &grid = pixels.grid;
+    const Imath::Box2i all = grid.box();
     tile.channels = pixels.guide.size();
     std::array<std::size_t, stride> column;
     std::array<float, stride> inside;
     for (int i = 0; i < stride; ++i) {
-        const int x = box.min.x - beside + i, nearest = std::clamp(x, 0, grid.width() - 1);
-        column[std::size_t(i)] = std::size_t(nearest);
+        const int x = box.min.x - beside + i, nearest = std::clamp(x, all.min.x, all.max.x);
+        column[std::size_t(i)] = std::size_t(nearest - all.min.x);
         inside[std::size_t(i)] = x == nearest ? 1 : 0;
     }
     for (int y = -beside; y < rows + beside; ++y) {
-        const int nearest = std::clamp(box.min.y + y, 0, grid.height() - 1);
+        const int nearest = std::clamp(box.min.y + y, all.min.y, all.max.y);
         const float within = nearest == box.min.y + y ? 1 : 0;
-        const std::size_t from = grid.index(0, nearest);
+        const std::size_t from = grid.index(all.min.x, nearest);
         const auto to = std::size_t(Tile::at(-beside, y));
         for (std::size_t i = 0; i < stride; ++i)
             tile.weights[to + i] = within * inside[i] * pixels.weights[from + column[i]];

@@ -114,8 +114,8 @@ std::optional<double> told(const std::vector<Sums> &blocks, Change change, doubl
 LensMistakes check_lens(const LayerToFinish &layer) {
     if (layer.grid.width() < 3 || layer.grid.height() < 3) return {};
     // Leaves out the border, whose pixels lack neighbours.
-    const Tiles tiles({Imath::V2i(1, 1), Imath::V2i(layer.grid.width() - 2, layer.grid.height() - 2)},
-                      FinishTuning::mistake_block_px);
+    const Imath::Box2i all = layer.grid.box();
+    const Tiles tiles({all.min + Imath::V2i(1), all.max - Imath::V2i(1)}, FinishTuning::mistake_block_px);
     std::vector<Sums> sums(tiles.count());
     parallel_for(sums.size(), [&](std::size_t b) { sums[b] = sums_of(layer, tiles.box(b)); });
     LensMistakes found;
@@ -192,9 +192,10 @@ double agreement(const Values &a, const Values &b, const Grid &grid) {
     Directions sum;
     for (const Imath::V2i &by : {Imath::V2i(apart, 0), Imath::V2i(0, apart)}) {
         if (grid.width() <= by.x || grid.height() <= by.y) continue;
-        const Tiles tiles({by, Imath::V2i(grid.width() - 1, grid.height() - 1)}, FinishTuning::block_px);
+        const Imath::V2i first = grid.box().min + by;
+        const Tiles tiles({first, grid.box().max}, FinishTuning::block_px);
         for (std::size_t t = 0; t < tiles.count(); ++t)
-            add_directions(a, b, grid, tiles.box(t), grid.index(by.x, by.y), sum);
+            add_directions(a, b, grid, tiles.box(t), grid.index(first.x, first.y), sum);
     }
     if (sum.all == 0) return 0;
     return (double(sum.same) - sum.expected) / double(sum.all) - 2 / std::sqrt(double(sum.all));
@@ -203,7 +204,8 @@ double agreement(const Values &a, const Values &b, const Grid &grid) {
 // The share of the first render in the noise, the median over blocks; 1/2 if nothing tells.
 double noise_of_first(const Values &first, const Values &second, const Values &gathered, const Grid &grid) {
     if (grid.width() < 3) return 0.5;
-    const Tiles tiles({Imath::V2i(1, 0), Imath::V2i(grid.width() - 2, grid.height() - 1)},
+    const Imath::Box2i whole = grid.box();
+    const Tiles tiles({whole.min + Imath::V2i(1, 0), whole.max - Imath::V2i(1, 0)},
                       FinishTuning::noise_block_px);
     std::vector<double> shares;
     for (std::size_t b = 0; b < tiles.count(); ++b) {

@@ -181,6 +181,35 @@ TEST(TwoHalves, RendersWithoutTheirNoiseAreDoubted) {
     }
 }
 
+// Overscan, and windows anywhere.
+TEST(FinishPicture, PixelsAreTheSameWhereverTheWindowsBegin) {
+    const auto at = [](const Imath::V2i &corner, const Imath::V2i &frame) {
+        const auto placed = [&](Image image) {
+            image.windows.data = {corner, corner + Imath::V2i(grid.width() - 1, grid.height() - 1)};
+            image.windows.display = {frame, frame + Imath::V2i(grid.width() - 17, grid.height() - 17)};
+            return image;
+        };
+        Image gathered = placed(picture_of(blurred(truth, grid, 1)));
+        TwoHalves halves(gathered);
+        for (const std::uint32_t seed : {1u, 2u}) {
+            Render noisy = render(seed);
+            noisy.image = placed(std::move(noisy.image));
+            halves.add_noisy(noisy);
+        }
+        Progress silent;
+        return finish_picture({std::move(gathered), std::move(halves)}, silent);
+    };
+    const FinishedPicture expected = at({0, 0}, {0, 0});
+    EXPECT_EQ(expected.warnings, std::vector<std::string>());
+    for (const Imath::V2i &corner : {Imath::V2i(-8, -8), {-37, -1001}, {200, 300}})
+        for (const Imath::V2i &frame : {corner, corner + Imath::V2i(8)}) {
+            const FinishedPicture found = at(corner, frame);
+            EXPECT_EQ(found.warnings, expected.warnings) << corner;
+            EXPECT_TRUE(found.image.values == expected.image.values) << corner;
+            EXPECT_EQ(found.error.map, expected.error.map) << corner;
+        }
+}
+
 // Renders with different data windows: where one has no data, the picture stays as gathered.
 TEST(FinishPicture, WhereARenderSaysNothingItStaysAsGathered) {
     Render first = render(1), second = render(2);
