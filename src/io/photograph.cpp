@@ -58,6 +58,25 @@ void require_size(const Windows &depth, const std::string &name, const Windows &
                         name, size(depth), path, size(picture), name, size(picture)));
 }
 
+// Gives the windows the corner and the shape of the pixels of another frame of that size: only EXR files have a corner.
+void move_frame(Windows &windows, const Windows &to) {
+    const Imath::V2i by = to.display.min - windows.display.min;
+    for (Imath::V2i *corner : {&windows.data.min, &windows.data.max}) *corner += by;
+    windows.display = to.display;
+    windows.pixel_aspect = to.pixel_aspect;
+}
+
+// The depth (R) in the pixels of `data`: beyond its own, that of the nearest pixel.
+Image extended(const Image &depth, const Imath::Box2i &data) {
+    const Imath::Box2i &own = depth.windows.data;
+    Image result({depth.windows.display, data, depth.windows.pixel_aspect}, {{"R", PixelType::float32}});
+    for (int y = data.min.y; y <= data.max.y; ++y)
+        for (int x = data.min.x; x <= data.max.x; ++x)
+            result.at(0, x, y) =
+                depth.at(0, std::clamp(x, own.min.x, own.max.x), std::clamp(y, own.min.y, own.max.y));
+    return result;
+}
+
 } // namespace
 
 bool is_photograph(const std::string &path, const PictureChoice &choice) {
@@ -72,15 +91,13 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
     colours.depth_file.clear();
     FlatFile picture = has_shown_ending(path) ? read_shown(path) : read_flat_exr(path, colours);
     const std::string &name = choice.depth_file;
-    if (has_shown_ending(name)) {
-        FlatFile depth = read_shown(name);
-        require_size(depth.image.windows, name, picture.image.windows, display_name(path));
-        require_grey(depth.image, name);
-        depth.image.windows = picture.image.windows;
-        put_depth_of_file(picture, path, {.depth_file = name}, depth);
-    } else {
-        put_depth_of_file(picture, path, choice);
-    }
+    const bool shown = has_shown_ending(name);
+    FlatFile depth = shown ? read_shown(name) : read_depth_file(choice);
+    require_size(depth.image.windows, name, picture.image.windows, display_name(path));
+    if (shown) require_grey(depth.image, name);
+    move_frame(depth.image.windows, picture.image.windows);
+    if (shown) depth.image = extended(depth.image, picture.image.windows.data);
+    put_depth_of_file(picture, path, shown ? PictureChoice{.depth_file = name} : choice, depth);
     return {ldi_of_flat(picture.image, "Z"), picture.header, false, std::move(picture.notes),
             std::move(picture.warnings)};
 }

@@ -342,11 +342,10 @@ std::span<float> new_depth(Image &image) {
 
 } // namespace
 
-void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice) {
+FlatFile read_depth_file(const PictureChoice &choice) {
     const std::string &name = choice.depth_file;
     const bool stereo = !choice.stereo_view.empty() && !stereo_views(name).empty();
-    const FlatFile file = read_flat_exr(name, {.stereo_view = stereo ? choice.stereo_view : std::string()});
-    put_depth_of_file(picture, path, choice, file);
+    return read_flat_exr(name, {.stereo_view = stereo ? choice.stereo_view : std::string()});
 }
 
 void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice,

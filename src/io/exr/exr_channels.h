@@ -113,12 +113,12 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
 // How clearly the name means depth: 0 for Z, more for less clear names; empty if it does not.
 std::optional<int> depth_rank(std::string_view name);
 
-// Reads the depth of choice.depth_file and puts it into the picture as Z, in place of any depth there. Notes and
-// warnings name what it read. The depth is the channel found by its name; otherwise the only channel;
-// otherwise the first of R, G and B. Outside its data window it is 0. Throws Error if the file has no depth, or differs
-// from the picture in display window or pixel aspect ratio.
-void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice);
-// The same with that file already read.
+// Reads choice.depth_file, an EXR file.
+FlatFile read_depth_file(const PictureChoice &choice);
+// Puts the depth of that file into the picture as Z, in place of any depth there. Notes and warnings name what it read.
+// The depth is the channel found by its name; otherwise the only channel; otherwise the first of R, G and B. Outside its
+// data window it is 0. Throws Error if the file has no depth, or differs from the picture in display window or pixel
+// aspect ratio.
 void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice,
                        const FlatFile &file);
 

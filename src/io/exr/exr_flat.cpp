@@ -254,7 +254,7 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
     FlatFile result{std::move(image), header, size, std::move(picture.notes), std::move(picture.warnings)};
-    if (!choice.depth_file.empty()) put_depth_of_file(result, path, choice);
+    if (!choice.depth_file.empty()) put_depth_of_file(result, path, choice, read_depth_file(choice));
     if (choice.unpremultiplied) premultiply(result.image.channels, planes_of(result.image));
     return result;
 }
