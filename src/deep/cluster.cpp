@@ -80,28 +80,16 @@ double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
     return enough;
 }
 
-// The share of each sample of a run in the merged one. Samples are composited front to back by `over`; opaque samples
-// within the tolerance of the first opaque one share the rest by weight; samples behind them are hidden.
-void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance,
-                std::vector<Term> &terms) {
+// The share of each sample of a run in the merged one: what the samples in front of it let through. An opaque sample
+// hides the rest.
+void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, std::vector<Term> &terms) {
     terms.clear();
-    std::uint64_t i = begin;
-    while (i < end && !is_one_in_half(alpha_at(p.ldi, p.alpha, i))) ++i;
-    const double transmittance = for_shares(p.ldi, p.alpha, {begin, i}, [&](std::uint64_t n, double share) {
-        terms.push_back({n, share});
+    const auto is_opaque = [&](std::uint64_t i) { return is_one_in_half(alpha_at(p.ldi, p.alpha, i)); };
+    std::uint64_t shown = begin;
+    while (shown < end && (shown == begin || !is_opaque(shown - 1))) ++shown;
+    for_shares(p.ldi, p.alpha, {begin, shown}, [&](std::uint64_t i, double share) {
+        terms.push_back({i, share});
     });
-    if (i == end) return;
-    const std::uint64_t first = i;
-    const double surface = p.front(first);
-    const std::size_t first_opaque = terms.size();
-    double weights = 0;
-    for (; i < end && (i == first || surface - p.back(i) <= tolerance); ++i)
-        if (is_one_in_half(alpha_at(p.ldi, p.alpha, i))) {
-            const double weight = sample_at(p.ldi, i).weight;
-            terms.push_back({i, transmittance * weight});
-            weights += weight;
-        }
-    for (std::size_t t = first_opaque; t < terms.size(); ++t) terms[t].coefficient /= weights;
 }
 
 bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
@@ -147,7 +135,7 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
     double largest = 0;
     for (std::uint64_t first = p.begin, last = p.begin; first < p.end; first = last) {
         last = end_of_run(p, first, extent);
-        set_shares(p, first, last, options.tolerance, terms);
+        set_shares(p, first, last, terms);
         append(out, p.ldi, merged_placement(p, terms));
         if (last - first > 1) largest = std::max(largest, extent_of(p, first, last));
     }

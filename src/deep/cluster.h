@@ -1,10 +1,10 @@
 // Reduces the samples of each pixel by disparity R F / z, so that the LDI can be refocused. Image depths count too.
 //
-// The samples of a cluster become one sample. Opaque samples within the tolerance are averaged by weight (they are one
-// surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples
-// behind an opaque one are dropped. Depths (as 1 / z) and position become means, weighted by what each sample shows; a
-// cluster with a volume becomes a volume. The CoC of no sample changes by more than the extent of its cluster, which is
-// R F / z of its front minus R F / z of its back, or the range of R F / image_z if that is larger.
+// The samples of a cluster become one sample. They are composited, so that the flattened picture does not change: an
+// opaque sample hides those behind it, which are dropped. (The warp has merged what several views show of one surface.)
+// Depths (as 1 / z) and position become means, weighted by what each sample shows; a cluster with a volume becomes a
+// volume. The CoC of no sample changes by more than the extent of its cluster, which is R F / z of its front minus
+// R F / z of its back, or the range of R F / image_z if that is larger.
 #pragma once
 
 #include "../base/progress.h"

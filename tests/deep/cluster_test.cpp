@@ -77,18 +77,18 @@ TEST(Cluster, WithoutToleranceAndLimitNothingChanges) {
     EXPECT_EQ(out.ldi.values, neat.values);
 }
 
-TEST(Cluster, OpaqueSamplesOfOneSurfaceAreAveragedByWeight) {
-    const TestPixel surface{{.z = 4, .colour = 1, .weight = 3, .dx = 0.25f, .dy = -0.5f},
-                            {.z = 4.1f, .colour = 5, .weight = 1, .dx = -0.25f, .dy = 0.5f}};
-    const TestPixel p = clustered(surface, {.scale = 10, .tolerance = 0.25});
+TEST(Cluster, TheNearerOpaqueSampleHidesTheFarther) {
+    const TestPixel two{{.z = 4, .colour = 1, .weight = 3, .dx = 0.25f, .dy = -0.5f},
+                        {.z = 4.1f, .colour = 5, .weight = 1, .dx = -0.25f, .dy = 0.5f}};
+    const TestPixel p = clustered(two, {.scale = 10, .tolerance = 0.25});
     ASSERT_EQ(p.size(), 1u);
-    EXPECT_FLOAT_EQ(p[0].colour, 2);
+    EXPECT_EQ(p[0].colour, 1);
     EXPECT_EQ(p[0].alpha, 1);
-    EXPECT_EQ(p[0].weight, 4);
-    EXPECT_FLOAT_EQ(p[0].dx, 0.125f);
-    EXPECT_FLOAT_EQ(p[0].dy, -0.25f);
-    EXPECT_FLOAT_EQ(p[0].z, float(4 / (3 / 4.0 + 1 / double(4.1f))));
-    EXPECT_EQ(clustered(surface, {.scale = 100, .tolerance = 0.25}).size(), 2u); // now 0.6 px apart
+    EXPECT_EQ(p[0].weight, 3);
+    EXPECT_EQ(p[0].dx, 0.25f);
+    EXPECT_EQ(p[0].dy, -0.5f);
+    EXPECT_EQ(p[0].z, 4);
+    EXPECT_EQ(clustered(two, {.scale = 100, .tolerance = 0.25}).size(), 2u); // now 0.6 px apart
 }
 
 // With K layers a wall far behind joins the cluster of the sample that hides it, without mixing in.
@@ -201,12 +201,16 @@ TEST(Cluster, NoSampleIsFurtherFromItsClusterThanIsSaid) {
 
 TEST(Cluster, FlattensToWhatItDidBefore) {
     for (const double volumes : {0.0, 0.4})
-        for (const int layers : {1, 2, 4}) {
-            const Ldi ldi = tidy(random_ldi({.most_samples = 20, .volume_share = volumes}));
-            const Image before = flatten(ldi), after = flatten(clustered(ldi, {.layers = layers}).ldi);
-            for (std::size_t i = 0; i < before.values.size(); ++i)
-                ASSERT_NEAR(before.values[i], after.values[i], 1e-6);
-        }
+        for (const double opaque : {0.0, 0.3})
+            for (const ClusterOptions &options :
+                 {ClusterOptions{.layers = 1}, ClusterOptions{.layers = 4}, ClusterOptions{.tolerance = 0.1},
+                  ClusterOptions{.tolerance = 0.5, .layers = 2}}) {
+                const Ldi ldi =
+                    tidy(random_ldi({.most_samples = 20, .opaque_share = opaque, .volume_share = volumes}));
+                const Image before = flatten(ldi), after = flatten(clustered(ldi, options).ldi);
+                for (std::size_t i = 0; i < before.values.size(); ++i)
+                    ASSERT_NEAR(before.values[i], after.values[i], 1e-6);
+            }
 }
 
 TEST(Cluster, WeightsAddUp) {
@@ -278,12 +282,12 @@ TEST(Cluster, ALensOfNoRadiusNeedsOneLayer) {
 }
 
 // One mirror at disparity 1, with images at these disparities.
-Ldi mirror_of(std::initializer_list<double> images, double spacing) {
+Ldi mirror_of(std::initializer_list<double> images, double spacing, float alpha = 1) {
     return make_ldi(windows_of_size(1, 1), {{"R"}, {"A"}}, [&](int, int) {
         std::vector<Sample> samples;
         for (const double image : images) {
             const double depth = 1 - spacing * double(samples.size());
-            samples.push_back({1 / depth, {float(samples.size()), 1}});
+            samples.push_back({1 / depth, {float(samples.size()), alpha}});
             samples.back().image_z = 1 / image;
         }
         return samples;
@@ -294,9 +298,9 @@ TEST(Cluster, UnlikeImagesStayApart) {
     const Ldi unlike = clustered(mirror_of({0.5, 0.8, 0.45}, 0.01), {.tolerance = 0.1}).ldi;
     ASSERT_EQ(unlike.samples(), 3u);
     EXPECT_FLOAT_EQ(unlike.image_z[1], 1 / 0.8f);
-    const Clustered alike = clustered(mirror_of({0.5, 0.44}, 0.01), {.tolerance = 0.1});
+    const Clustered alike = clustered(mirror_of({0.5, 0.44}, 0.01, 0.5f), {.tolerance = 0.1});
     ASSERT_EQ(alike.ldi.samples(), 1u);
-    EXPECT_NEAR(1 / alike.ldi.image_z[0], 0.47, 1e-6);
+    EXPECT_NEAR(1 / alike.ldi.image_z[0], (0.5 * 0.5 + 0.25 * 0.44) / 0.75, 1e-6);
     EXPECT_NEAR(alike.largest_error, 0.06, 1e-6);
     const Clustered forced = clustered(mirror_of({-0.2, 0.4}, 0.01), {.layers = 1});
     ASSERT_EQ(forced.ldi.samples(), 1u);

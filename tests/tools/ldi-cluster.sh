@@ -128,3 +128,23 @@ same_samples merged.exr swapped.exr "the order of the files matters"
 oiiotool --pattern constant:color=0.5,0.25,1,1,9 24x8 5 --chnames R,G,B,A,Z -d float --deepen -o wide.exr
 fails_saying 1 'wide.exr: its display window differs from that of near.exr' "$cluster" near.exr wide.exr -o x.exr --layers 9
 fails_saying 2 'merged.exr would overwrite the input merged.exr' "$cluster" near.exr merged.exr -o merged.exr --layers 9
+
+# Elements that no lens tells apart become one sample: the nearer hides the farther, glass shows what is behind it.
+element() { # NAME COLOUR COVERAGE DEPTH
+    oiiotool --pattern "constant:color=$2,$2,$2,$3,$4" 16x8 5 --chnames R,G,B,A,Z -d float --deepen -o "$1".exr
+}
+element tree 0.75 1 936
+element trunk 0.125 1 950
+element glass 0.125 0.5 940
+element hill 0.5 1 951
+lens=(--focal-length 50 --sensor-width 36 --lens-radius 5 --focus-distance 300)
+for elements in 'tree trunk' 'trunk glass' 'hill glass trunk' 'glass tree hill'; do
+    read -ra files <<<"${elements// /.exr }.exr"
+    exits 0 "$cluster" "${files[@]}" "${lens[@]}" -o merged.exr
+    [ "$(most merged.exr)" -eq 1 ] || fail "the lens tells $elements apart"
+    oiiotool merged.exr --flatten --ch R,G,B,A -o merged-flat.exr
+    expected=("${files[0]}")
+    for file in "${files[@]:1}"; do expected+=("$file" --deepmerge); done
+    oiiotool "${expected[@]}" --flatten --ch R,G,B,A -o expected-flat.exr
+    picture same merged-flat.exr expected-flat.exr 1e-3 >found || fail "$elements: $(cat found)"
+done
