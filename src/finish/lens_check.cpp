@@ -147,15 +147,16 @@ std::vector<std::string> LensMistakes::warnings() const {
 }
 
 bool NoiseOfTwo::same() const {
-    return equal >= FinishTuning::same_noise || std::abs(of_each[0] - of_each[1]) > FinishTuning::no_share ||
+    return equal >= FinishTuning::same_noise || multiple >= FinishTuning::same_multiple ||
            (equal_excess >= FinishTuning::same_excess && excess >= FinishTuning::least_excess);
 }
 
 namespace {
 
 // The second difference along a row. NaN if it is not known.
-float bend(std::span<const float> plane, std::size_t i) {
-    return plane[i] - (plane[i - 1] + plane[i + 1]) / 2;
+template <typename Plane>
+float bend(const Plane &plane, std::size_t i) {
+    return float(plane[i]) - (float(plane[i - 1]) + float(plane[i + 1])) / 2;
 }
 
 // Counts pairs of pixels that are a few pixels apart: all pairs, those in which both pixels are brighter in the same
@@ -225,6 +226,28 @@ double noise_of_first(const Values &first, const Values &second, const Values &g
     return shares.empty() ? 0.5 : median(shares);
 }
 
+// How often the difference of two renders bends as the second one does: 1 if the first is a multiple of it. Independent
+// noise is in the second render and, with the other sign, in the difference, so they agree in half of the pixels at
+// most, however wrong a gathered picture is. Bends up and down count alike, because bright noise bends both more often
+// down than up.
+class Multiple {
+public:
+    void add(float second, float difference) {
+        if (!std::isfinite(second + difference) || second == 0 || difference == 0) return;
+        ++all_[second > 0];
+        agreed_[second > 0] += (second > 0) == (difference > 0);
+    }
+    // Less four standard deviations.
+    double share() const {
+        const double up = double(all_[1]), down = double(all_[0]);
+        if (up == 0 || down == 0) return 0;
+        return (double(agreed_[1]) / up + double(agreed_[0]) / down) / 2 - std::sqrt(1 / up + 1 / down);
+    }
+
+private:
+    std::array<std::size_t, 2> all_{0, 0}, agreed_{0, 0}; // of bends down and up
+};
+
 Values mapped(std::span<const half> values) {
     Values result(values.size());
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -241,13 +264,19 @@ NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> secon
     const Values a = mapped(first), b = mapped(second), g = mapped(gathered);
     const auto width = std::size_t(grid.width());
     std::size_t told = 0, equal = 0, excess = 0, equal_excess = 0;
+    std::array<Multiple, 2> multiple;
     for (std::size_t i = 1; i + 1 < a.size(); ++i) {
-        if (a[i] != a[i - 1] && std::isfinite(a[i] + b[i])) {
+        if (std::abs(a[i] - a[i - 1]) > 0 && std::isfinite(b[i])) { // both are known
             ++told;
             equal += a[i] == b[i];
         }
         const float bent = bend(a, i);
         const bool inside = i % width > 0 && (i + 1) % width > 0;
+        if (inside) {
+            const float one = bend(first, i), two = bend(second, i);
+            multiple[0].add(two, one - two);
+            multiple[1].add(one, two - one);
+        }
         if (!inside || !(a[i] > a[i - 1] && a[i] > a[i + 1] && bent > FinishTuning::rough * std::abs(a[i]) &&
                          bent > 2 * std::abs(bend(g, i))))
             continue;
@@ -257,8 +286,9 @@ NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> secon
     const auto share = [](std::size_t part, std::size_t all) {
         return all > 0 ? double(part) / double(all) : 0;
     };
-    NoiseOfTwo found{
-        share(equal, told), share(excess, a.size()), share(equal_excess, excess), agreement(a, b, grid), {}};
+    NoiseOfTwo found{share(equal, told),          share(excess, a.size()),
+                     share(equal_excess, excess), std::max(multiple[0].share(), multiple[1].share()),
+                     agreement(a, b, grid),       {}};
     const double of_first = noise_of_first(a, b, g, grid);
     found.of_each = {of_first, 1 - of_first};
     return found;

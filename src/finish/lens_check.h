@@ -44,6 +44,7 @@ struct NoiseOfTwo {
         0; // the share of pixels, among those that differ from the pixel before, that are the same in both
     double excess = 0;       // the share of pixels that are rough, and smooth in the gathered picture
     double equal_excess = 0; // the share of these that are the same in both
+    double multiple = 0;     // 1 if one render is a multiple of the other; 1/2 at most for independent noise
     double alike = 0;        // the share of pairs of pixels that agree beyond chance
     std::array<double, 2> of_each{0.5, 0.5}; // shares of the noise
     bool same() const;

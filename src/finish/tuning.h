@@ -56,8 +56,8 @@ struct FinishTuning {
     // pixels: .02 to .1; denoised renders: .01 to .2, but for 140 rays, which a denoiser leaves as they are.
     static constexpr int noise_apart = 3;
     static constexpr double noise_alike = 0.01;
-    // If the shares of the noise differ by more, one noise is a multiple of the other. Good renders: 1 at most.
-    static constexpr double no_share = 4;
+    // The noise is also the same if so much of it is a multiple of the other (NoiseOfTwo::multiple).
+    static constexpr double same_multiple = 0.6;
     // A render has too little noise if the median of blocks of this side finds less than this part of what its samples
     // tell.
     static constexpr double little_noise = 0.4;

@@ -119,6 +119,15 @@ TEST(TwoHalves, PartsAreComparedWhereTheyMeet) {
     add_part(2, {{8, 4}, {63, 47}});
 }
 
+// A rectangle of the background alone: its rim says nothing.
+TEST(TwoHalves, PartsWithoutNoiseCannotTell) {
+    TwoHalves halves(picture_of(truth));
+    Render part{"rays.exr", picture_of(Colours(3, Values(grid.size(), 0.02f)))};
+    part.image = crop(part.image, {{8, 4}, {55, 11}});
+    halves.add_noisy(part);
+    halves.add_noisy(part);
+}
+
 TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     TwoHalves halves(picture_of(truth));
     const auto refused = [&](const std::string &named, const auto &change) {

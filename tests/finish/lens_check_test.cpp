@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sparselens {
@@ -128,6 +129,37 @@ TEST(NoiseOfTwo, TheSameNoiseIsToldThoughRendersDiffer) {
     EXPECT_TRUE(noise(half_of_it, first, truth).same());
     EXPECT_TRUE(noise(first, times(first, 1.0001f), truth).same());
     EXPECT_TRUE(noise(times(first, 1.2f), first, truth).same());
+}
+
+// Multiples from nearly 1 to three stops, of few samples and many.
+TEST(NoiseOfTwo, MultiplesAreTheSameNoise) {
+    for (const double samples : {4.0, 64.0, 1024.0})
+        for (const float factor : {0.25f, 0.9f, 0.997f, 1.0005f, 1.003f, 1.02f, 2.0f, 8.0f}) {
+            const Colours first = rays_of(truth, samples, 1);
+            EXPECT_TRUE(noise(first, times(first, factor), blurred(truth, grid, 1)).same())
+                << samples << ' ' << factor;
+        }
+}
+
+// A rectangle of many samples where the gathered picture lacks a lamp or a texture: the renders are good.
+TEST(NoiseOfTwo, AWrongGatheredPictureDoesNotMakeNoiseTheSame) {
+    for (const auto &size : {Imath::V2i(48, 8), {8, 8}, {3, 3}}) {
+        const Grid small(size.x, size.y);
+        for (const float lamp : {0.0f, 20.0f, 500.0f})
+            for (const double samples : {1.0, 50.0, 500.0, 5000.0})
+                for (std::uint32_t seed = 1; seed < 20; ++seed) {
+                    Colours there(3, Values(small.size()));
+                    for (std::size_t i = 0; i < small.size(); ++i)
+                        for (Values &channel : there)
+                            channel[i] =
+                                0.3f + 0.1f * std::sin(float(small.pixel(i).x)) + (i == 11 ? lamp : 0);
+                    const Colours wrong(3, Values(small.size(), 0.3f));
+                    const NoiseOfTwo found =
+                        noise_of_two(plane(rays_of(there, samples, 2 * seed)),
+                                     plane(rays_of(there, samples, 2 * seed + 1)), plane(wrong), small);
+                    ASSERT_FALSE(found.same()) << size << ' ' << lamp << ' ' << samples << ' ' << seed;
+                }
+    }
 }
 
 // Missing and infinite values tell nothing.
