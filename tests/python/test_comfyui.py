@@ -99,6 +99,16 @@ def test_one_depth_serves_all_pictures(node):
     assert numpy.array_equal(both[:1], node(image, depth, blur=4.0, focus_x=0.25))
 
 
+def test_a_depth_may_lack_channels(node):
+    image, depth = stripes()
+    with_channels = node(image, depth, blur=4.0)
+    assert numpy.array_equal(node(image, depth[:, :, :, 0], blur=4.0), with_channels)
+    assert numpy.array_equal(node(image, depth[0, :, :, 0], blur=4.0), with_channels)
+    assert numpy.array_equal(node(image, depth[:, :, :, :1], blur=4.0), with_channels)
+    with pytest.raises(ValueError, match="the depth has 32 x 48 pixels, the picture 64 x 48"):
+        node(image, depth[:, :, ::2, 0])
+
+
 def test_other_sizes_and_numbers_are_named(node):
     image, depth = stripes()
     with pytest.raises(ValueError, match="the depth has 32 x 48 pixels, the picture 64 x 48"):

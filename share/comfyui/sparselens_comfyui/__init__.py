@@ -64,8 +64,11 @@ class DepthOfField:
         }}
 
     def take(self, image, depth, blur, focus_x, focus_y, highlight_gain):
-        """One picture after the other; a single depth serves all."""
+        """One picture after the other; a single depth serves all. Some nodes give depths without channels: (n, height,
+        width), or (height, width)."""
         pictures, depths = image.cpu().numpy(), depth.cpu().numpy()
+        if depths.ndim < 4:
+            depths = depths.reshape(-1, *depths.shape[-2:], 1)
         if len(depths) not in (1, len(pictures)):
             raise ValueError("%d pictures and %d depths" % (len(pictures), len(depths)))
         taken = [blurred(picture[:, :, :3], depths[n % len(depths)][:, :, 0], blur, focus_x, focus_y, highlight_gain)
