@@ -2,10 +2,13 @@
 fields in the place of options.
 """
 
+import argparse
 import re
 import shlex
 
 import bpy
+
+from . import options
 
 # The names that Blender shows for the values of these options. The panel's own
 # settings and looks are not listed: field_of() finds them by their properties.
@@ -32,6 +35,15 @@ def field_of(option):
     return ELSEWHERE.get(option)
 
 
+def options_of_script():
+    parser = argparse.ArgumentParser()
+    options.add_options(parser.add_argument,
+                        parser.add_mutually_exclusive_group)
+    options.add_views_options(parser.add_argument)
+    options.add_picture_options(parser.add_argument)
+    return parser.parse_known_args(["-o", ""])[0]
+
+
 def options_typed():
     typed = bpy.context.scene.sparselens.looks
     try:
@@ -52,12 +64,15 @@ def in_panel(said):
             return '"%s"%s' % (name, found[2] or "")
         if of_views:
             return found[0]
+        if not of_gather and hasattr(script, found[1].replace("-", "_")):
+            return "%s on the command line" % found[0]
         return '%s in "Other Options"' % found[0]
 
     text = re.sub(r"\(docs/[\w.]+(?:, \"[^\"]*\")?(?:; )?", "(", str(said))
     text = re.sub(r"; docs/[\w.]+(?=\))", "", text)
     text = re.sub(r" \((?:or on the command line by [^)]*)?\)", "", text)
     of_views = text.startswith(("ldi-warp: ", "ldi-cluster: "))
+    of_gather, script = text.startswith("dof-gather: "), options_of_script()
     return OPTION.sub(renamed, text)
 
 
