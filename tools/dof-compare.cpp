@@ -6,7 +6,6 @@
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
 #include "measure/figures_text.h"
-#include "measure/flip.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "measure/temporal_error.h"
@@ -26,9 +25,8 @@ namespace {
 using namespace sparselens;
 
 struct Options {
-    std::string image, reference, second_reference, regions, frames, flip_map;
+    std::string image, reference, second_reference, regions, frames;
     bool json = false;
-    std::optional<FlipRange> flip;
     LensValues lens;
     DepthOptions depth;
 };
@@ -50,27 +48,12 @@ void add_options(CLI::App &app, Options &options) {
                                           "Also compare by region: in focus, blurred, silhouettes. The "
                                           "regions come from this LDI (deep EXR, or flat with depth)")
                                ->type_name("LDI");
-    CLI::Option *flip =
-        app.add_option("--flip", options.flip,
-                       "Also compute FLIP, the difference that a viewer notices when flipping between the "
-                       "pictures. ldr: for values in [0, 1]; hdr: for the worst of several exposures")
-            ->type_name("ldr|hdr")
-            ->transform(
-                words(std::map<std::string, FlipRange>{{"ldr", FlipRange::ldr}, {"hdr", FlipRange::hdr}}));
-    CLI::Option *flip_map =
-        app.add_option("--flip-map", options.flip_map,
-                       "Write the FLIP of each pixel, from 0 to 1 (EXR, or PNG and others)")
-            ->type_name("FILE")
-            ->check(output_name(OutputKind::picture))
-            ->needs(flip);
     app.add_option("--frames", options.frames,
                    "Compare over time: how steady a sequence is (names hold #### or %04d), and how its "
                    "changes differ from those of REF, if given. RANGE is e.g. 1-16")
         ->type_name("RANGE")
         ->excludes(second)
-        ->excludes(regions)
-        ->excludes(flip)
-        ->excludes(flip_map);
+        ->excludes(regions);
     add_parameters(app, lens_parameters(), options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
@@ -82,8 +65,6 @@ void add_options(CLI::App &app, Options &options) {
                         "dof-compare picture.exr reference.exr another.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
                         "dof-compare picture.exr reference.exr --regions ldi.exr --json"},
-                       {"Write a map of the visible differences, at any exposure",
-                        "dof-compare picture.exr reference.exr --flip hdr --flip-map flip.exr"},
                        {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
 
@@ -91,13 +72,6 @@ Image read_picture(const std::string &path, const Options &options, const ToolCo
     FlatFile file = read_flat_exr(path, options.depth.picture);
     notify_reading(tool.notify(), path, file.notes, file.warnings);
     return std::move(file.image);
-}
-
-// The same value in R, G and B, so that every program shows it as grey.
-void write_flip_map(const std::string &path, std::span<const float> map, const Windows &windows) {
-    Image image(windows, {{"R", PixelType::float32}, {"G", PixelType::float32}, {"B", PixelType::float32}});
-    for (std::size_t c = 0; c < 3; ++c) std::ranges::copy(map, image.plane(c).begin());
-    write_plain(path, image);
 }
 
 std::optional<Image> second_reference(const Options &options, const Windows &windows,
@@ -137,12 +111,6 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
     if (second) {
         const auto errors = error_without_noise(image, *first, *second, bits, count);
         for (std::size_t r = 0; r < figures.size(); ++r) figures[r].without_noise = errors[r];
-    }
-    if (options.flip) {
-        const std::vector<float> map = flip_map(image, reference, *options.flip);
-        const std::vector<double> means = flip_means(map, bits, count);
-        for (std::size_t r = 0; r < figures.size(); ++r) figures[r].flip = means[r];
-        if (!options.flip_map.empty()) write_flip_map(options.flip_map, map, windows);
     }
 
     std::vector<NamedFigures> regions;

@@ -6,7 +6,7 @@ echo "|---|---|---|---|---|---|---|"
 for scene in fence grass mirror mist lamps; do
     [ -e "$scene.said" ] || "$(dirname "$0")/../denoise" "$bin" "$scene" "$scene" 320x180 1024 area >"$scene.new"
     [ -e "$scene.said" ] || mv "$scene.new" "$scene.said"
-    cell() { sed -nE "s/^$1: ([0-9.]+) dB, worst ([0-9.]+) dB, FLIP ([0-9.]+)$/ \1, \2, \3 |/p" "$scene.said" | tr -d '\n'; }
+    cell() { sed -nE "s/^$1: ([0-9.]+) dB, worst ([0-9.]+) dB, FLIP (.+)$/ \1, \2, \3 |/p" "$scene.said" | tr -d '\n'; }
     for samples in 1 4 16 64; do
         rays=$((5 * samples))
         echo -n "| $scene, $rays |"

@@ -16,7 +16,7 @@ ways = [("ray tracing", "distributed ray tracing", ""), ("denoised", "denoised r
 
 
 def figures(row):
-    return (f"{float(row['psnr_tonemapped']):.2f}, {float(row['psnr_worst']):.2f}, {float(row['flip']):.4f}, "
+    return (f"{float(row['psnr_tonemapped']):.2f}, {float(row['psnr_worst']):.2f}, {float(row['flip'] or 'nan'):.4f}, "
             f"{float(row['seconds']):.2f} s")
 
 

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 
 import numpy
 import OpenImageIO
@@ -12,6 +13,7 @@ import OpenImageIO
 from rows import FIGURES, REGIONS
 from steps import Failure, TimeLeft, matching
 
+FLIP = "import flip_evaluator, sys; print(flip_evaluator.evaluate(*sys.argv[1:], 'HDR', applyMagma=False)[1])"
 BLOCK, AROUND, GAP = 8, 32, 2  # pixels: a block, what is shown around the worst, the gap beside it
 
 
@@ -61,6 +63,13 @@ def around(block, picture, reference):
     return pair
 
 
+def flip(*files):
+    """The mean of FLIP; NaN if the Python that SPARSELENS_FLIP_PYTHON names, or else this one, lacks its module."""
+    words = [os.environ.get("SPARSELENS_FLIP_PYTHON", sys.executable), "-c", FLIP, *files]
+    done = subprocess.run(words, capture_output=True, text=True)
+    return math.nan if done.returncode else float(done.stdout)
+
+
 class Measured:
     """A scene and its reference; `picture` is the file in which the page shows that."""
 
@@ -88,11 +97,12 @@ class Measured:
 
     def figures(self, picture):
         """Figures of the whole picture, then of each region. In JSON infinity, of equal pictures, is null as NaN is."""
-        said = self.compare(picture, self.reference, "--flip", "hdr", *self.regions)
+        said = self.compare(picture, self.reference, *self.regions)
+        said["flip"] = flip(*map(self.runner.path, (self.reference, picture)))
         for part in (parts := [said, *(said["regions"][region] for region in REGIONS)]):
             part |= {f"nonfinite_{name}": count for name, count in part["nonfinite"].items()}
             for name in FIGURES:
-                if part[name] is None:
+                if part.setdefault(name, math.nan) is None:
                     part[name] = math.inf if part["pixels"] and name.startswith("psnr") else math.nan
         return parts
 

@@ -14,7 +14,7 @@ import math
 STAGES = ["render", "plan", "warp", "cluster", "process"]
 REGIONS = ["in_focus", "blurred", "silhouettes"]
 FIGURES = ["psnr", "psnr_tonemapped", "psnr_srgb", "psnr_worst", "relmse", "smape", "ssim", "ssim_srgb", "p99",
-           "max", "max_alpha", "flip", "pixels", "nonfinite_image", "nonfinite_reference"]  # as dof-compare has them
+           "max", "max_alpha", "flip", "pixels", "nonfinite_image", "nonfinite_reference"]  # of dof-compare; FLIP is apart
 
 
 @dataclasses.dataclass

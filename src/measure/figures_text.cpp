@@ -25,7 +25,6 @@ using Json = nlohmann::ordered_json;
 Json json_of(const ErrorFigures &figures) {
     Json json;
     for (const Figure &figure : figure_table) json[figure.name] = figures.*figure.value;
-    if (figures.flip) json["flip"] = *figures.flip;
     if (const auto &error = figures.without_noise) {
         json["psnr_without_noise"] = error->is_told() ? Json(error->decibels()) : Json(nullptr);
         json["mse_without_noise"] = error->mean_square;
@@ -52,11 +51,6 @@ std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFig
     for (const Figure &figure : figure_table) {
         TextRow &row = rows.emplace_back(TextRow{figure.name});
         for (const NamedFigures &column : columns) row.push_back(six_digits(column.figures.*figure.value));
-    }
-    if (whole.flip) {
-        TextRow &row = rows.emplace_back(TextRow{"flip"});
-        for (const NamedFigures &column : columns)
-            row.push_back(six_digits(column.figures.flip.value_or(NAN)));
     }
     if (whole.without_noise) {
         TextRow &row = rows.emplace_back(TextRow{"psnr_without_noise"});

@@ -13,7 +13,6 @@
 //   ssim_srgb        the same for the channels of psnr_srgb
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
 //   max, max_alpha   the largest |a - b| of the colours, and of A
-//   flip             the mean of flip_map() (flip.h), if it was measured
 //   without_noise    the result of error_without_noise() (without_noise.h), if it was measured
 // A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out, as is every
 // SSIM window that contains it. The figures of an empty set of pixels are NaN.
@@ -36,7 +35,6 @@ struct ErrorFigures {
     double psnr, psnr_tonemapped, psnr_srgb, psnr_worst, relmse, smape, ssim, ssim_srgb, p99, max, max_alpha;
     std::size_t pixels = 0; // compared pixels
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
-    std::optional<double> flip = {};
     std::optional<ErrorWithoutNoise> without_noise = {}; // if there are two references
 };
 

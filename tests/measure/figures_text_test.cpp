@@ -29,9 +29,6 @@ TEST(FiguresText, JsonKeepsAllDigitsAndInfinityIsNull) {
                                           {"pixels", 100},
                                           {"nonfinite", {{"image", 3}, {"reference", 4}}}};
     EXPECT_EQ(json, expected); // including the order of the keys
-    ErrorFigures with_flip = some;
-    with_flip.flip = 0.125;
-    EXPECT_EQ(nlohmann::json::parse(figures_as_json(with_flip, {})).at("flip"), 0.125);
 }
 
 TEST(FiguresText, JsonNamesRegions) {
@@ -52,12 +49,6 @@ TEST(FiguresText, TableHasAColumnARegion) {
     EXPECT_EQ(table.substr(0, table.find('\n')), "                           all  in_focus");
     EXPECT_NE(table.find("\npsnr_tonemapped        40.1235   40.1235\n"), std::string::npos) << table;
     EXPECT_NE(table.find("\np99                          -         -\n"), std::string::npos) << table;
-    EXPECT_EQ(table.find("flip"), std::string::npos);
-    ErrorFigures with_flip = some;
-    with_flip.flip = 0.125;
-    EXPECT_NE(figures_as_table(with_flip, regions).find("\nflip                     0.125         -\n"),
-              std::string::npos)
-        << figures_as_table(with_flip, regions);
     EXPECT_NE(table.find("\nnonfinite (image)            3         3\n"), std::string::npos) << table;
 }
 

@@ -48,24 +48,6 @@ exits 0 "$compare" a.exr a.exr --json
 is psnr null
 is psnr_tonemapped null
 is ssim 1
-! grep flip stdout || fail "tells what was not asked"
-
-# FLIP of greys depends on their lightness L* to the power 0.7; 41.276 is the largest difference of colours.
-flip_of_greys() { awk -v a="$1" -v b="$2" 'BEGIN { print 0.95 * (116 * (a^(1 / 3) - b^(1 / 3)))^0.7 / (0.4 * 41.276) }'; }
-grey=$(flip_of_greys 0.75 0.5)
-exits 0 "$compare" a.exr b.exr --json --flip ldr --flip-map map.exr
-is flip "$grey" "" 0.0005
-picture make expected.exr 32x20 R="$grey" G="$grey" B="$grey"
-picture same expected.exr map.exr 0.0005 || fail "--flip-map holds something else"
-exits 0 "$compare" a.exr b.exr --flip ldr --flip-map map.png
-grep -Eq "^flip +${grey:0:4}" stdout || fail "no flip in the table: $(cat stdout)"
-oiiotool --info map.png >/dev/null || fail "--flip-map writes no PNG"
-exits 0 "$compare" a.exr b.exr --json --flip hdr # the film curve shows the reference's median as 0.85
-is flip "$(flip_of_greys "$(awk 'BEGIN { x = 1.5 * 2.118869; print (0.9036 * x + 0.018) * x / ((0.8748 * x + 0.354) * x + 0.14) }')" 0.85)" "" 0.0005
-exits 0 "$compare" a.exr a.exr --json --flip hdr
-is flip 0
-fails_saying 2 'ldr.*sdr|hdr.*sdr' "$compare" a.exr b.exr --flip sdr
-fails_saying 2 flip "$compare" a.exr b.exr --flip-map map.exr
 
 # The table has the same figures.
 exits 0 "$compare" a.exr b.exr
@@ -128,8 +110,6 @@ is pixels 0 blurred
 is pixels 200 silhouettes # 5 columns on either side: |x - 15| and |x - 16| up to 4.32
 is psnr null blurred
 is psnr 12.0412 in_focus
-regions ldi.exr "${lens[@]}" --flip ldr
-is flip "$grey" in_focus 0.0005
 exits 0 "$compare" a.exr b.exr --regions ldi.exr "${lens[@]}"
 head -1 stdout | grep -Eq 'all +in_focus +blurred +silhouettes' || fail "no columns: $(head -1 stdout)"
 
