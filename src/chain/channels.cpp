@@ -2,6 +2,7 @@
 
 #include "base/channel_kind.h"
 #include "base/error.h"
+#include "base/matte.h"
 #include "base/text.h"
 #include "deep/channel_alpha.h"
 
@@ -9,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 namespace sparselens {
 
@@ -21,6 +23,29 @@ bool names(const std::string &item, const Channel &channel) {
            (is_in_matte(channel) && item == channel.matte);
 }
 
+// The layers and the Cryptomatte that hold the channel.
+std::vector<std::string> holders_of(const Channel &channel) {
+    std::vector<std::string> holders;
+    if (is_in_matte(channel)) holders.push_back(channel.matte);
+    for (std::size_t dot = channel.name.find('.'); dot != npos; dot = channel.name.find('.', dot + 1))
+        holders.push_back(channel.name.substr(0, dot));
+    return holders;
+}
+
+// The full name of what is asked for, which may be the last part of the name of a layer or a Cryptomatte.
+std::string full_name(const std::string &item, const std::vector<Channel> &channels) {
+    std::set<std::string> found;
+    for (const Channel &channel : channels) {
+        if (names(item, channel)) return item;
+        for (const std::string &holder : holders_of(channel))
+            if (holder.ends_with("." + item)) found.insert(holder);
+    }
+    if (found.size() > 1)
+        throw UsageError(fmt::format("`channels`: '{}' is the last part of {}: give one by its full name",
+                                     item, fmt::join(found, " and ")));
+    return found.empty() ? item : *found.begin();
+}
+
 std::vector<std::string> names_of(const std::vector<Channel> &channels) {
     std::vector<std::string> names;
     for (const Channel &channel : channels) names.push_back(channel.name);
@@ -29,7 +54,8 @@ std::vector<std::string> names_of(const std::vector<Channel> &channels) {
 
 std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string &list) {
     std::vector<bool> result(channels.size(), list.empty());
-    for (const std::string &item : words_between_commas(list)) {
+    for (const std::string &asked : words_between_commas(list)) {
+        const std::string item = full_name(asked, channels);
         bool found = false;
         for (std::size_t k = 0; k < channels.size(); ++k)
             if (names(item, channels[k])) found = result[k] = true;
@@ -72,6 +98,27 @@ Image chosen_channels(Image image, const std::string &list) {
     for (std::size_t k = 0, to = 0; k < keep.size(); ++k)
         if (keep[k]) std::ranges::copy(image.plane(k), result.plane(to++).begin());
     return result;
+}
+
+std::vector<std::string> lost_matte_warnings(const Image &picture) {
+    const std::size_t alpha = find_channel(picture.channels, "A");
+    std::vector<std::string> warnings;
+    for (const Matte &matte : find_mattes(picture.channels)) {
+        double all = 0, lost = 0;
+        for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {
+            const double covered = alpha == npos ? 1 : double(picture.plane(alpha)[i]);
+            double left = covered;
+            for (const Matte::Rank &rank : matte.ranks) left -= double(picture.plane(rank.coverage)[i]);
+            all += covered;
+            if (picture.plane(matte.ranks.back().coverage)[i] > 0) lost += std::max(left, 0.0);
+        }
+        if (lost > 0.01 * all)
+            warnings.push_back(
+                fmt::format("Cryptomatte {} lacks {:.0f} % of the coverage, because it has room "
+                            "for {} objects a pixel: render it with more levels",
+                            matte.name, 100 * lost / all, matte.ranks.size()));
+    }
+    return warnings;
 }
 
 } // namespace sparselens

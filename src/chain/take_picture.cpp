@@ -144,8 +144,11 @@ private:
         if (in_.reduced() && merges_by_rows(in_.ldi.channels)) by_.layer_tolerance = 0; // already merged
         const auto gather_by = [&](TileDevice *device) {
             by_.gather.lens.device = device;
-            if (needs_gather(request_.show))
-                out_.image = frame_.picture_of(chosen_channels(gathered(), request_.channels));
+            if (!needs_gather(request_.show)) return;
+            Image all = frame_.picture_of(gathered());
+            for (const std::string &warning : lost_matte_warnings(all))
+                work_.notify({NoticeKind::file_warning, in_.name, {warning}});
+            out_.image = chosen_channels(std::move(all), request_.channels);
         };
         if (work_.device)
             work_.device->with(request_.device, work_.notify, work_.progress, gather_by);

@@ -54,4 +54,29 @@ fi
 exits 0 "$bin/dof-gather" clustered.exr -o one.exr --channels things
 same_ids one.exr
 [ "$(oiiotool --info one.exr | grep -c '4 channel')" -eq 1 ] || fail "--channels things: $(oiiotool --info one.exr)"
+
+# In files of Blender, the name begins with that of the view layer; the last part suffices if only one has it.
+for layer in ViewLayer Back; do
+    exits 0 oiiotool plain.exr --chnames "R,G,B,A,Z,$layer.things00.R,$layer.things00.G,$layer.things00.B,$layer.things00.A" \
+        --attrib cryptomatte/ab12cd3/name $layer.things --attrib cryptomatte/ab12cd3/hash MurmurHash3_32 \
+        --attrib cryptomatte/ab12cd3/conversion uint32_to_float32 -o $layer.exr
+done
+exits 0 "$bin/dof-gather" ViewLayer.exr "${lens[@]}" -o full.exr --channels ViewLayer.things
+exits 0 "$bin/dof-gather" ViewLayer.exr "${lens[@]}" -o last.exr --channels things
+cmp -s full.exr last.exr || fail "the last part of a name is another matte"
+oiiotool ViewLayer.exr Back.exr --ch Back.things00.R,Back.things00.G --chappend \
+    --attrib cryptomatte/0123456/name Back.things --attrib cryptomatte/0123456/conversion uint32_to_float32 -o two.exr
+fails_saying 2 "'things' is the last part of Back.things.* and ViewLayer.things.*: give one" "$bin/dof-gather" two.exr "${lens[@]}" -o x.exr --channels things
+
+# Ranks for two objects do not suffice where the lens mixes six.
+six=() at=0
+for id in 1.5 2.5 3.5 4.5 5.5 6.5; do
+    six+=("--fill:color=0,1,0,1,2,$id,1,0,0" 4x16+$at+0)
+    at=$((at + 4))
+done
+oiiotool --create 24x16 9 --chnames $names "${six[@]}" -d float --attrib cryptomatte/ab12cd3/name things \
+    --attrib cryptomatte/ab12cd3/hash MurmurHash3_32 --attrib cryptomatte/ab12cd3/conversion uint32_to_float32 -o six.exr
+exits 0 "$bin/dof-gather" six.exr "${lens[@]/0.2/0.8}" -o sixth.exr --channels things
+grep -Eq 'six.exr: Cryptomatte things lacks [0-9]+ % of the coverage, because it has room for 2 objects a pixel' stderr ||
+    fail "says nothing of lost objects: $(cat stderr)"
 fails_saying 2 '--compression: dwaa would destroy the ids in channel things00' "$bin/dof-gather" clustered.exr -o x.exr --compression dwaa
