@@ -1,7 +1,9 @@
 #include "io/display/oiio_module.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,15 +24,22 @@ bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
                          picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("PixelAspectRatio", picture.pixel_aspect);
+    OIIO::Filesystem::IOVecOutput memory;
+    if (file.supports("ioproxy")) file.set_ioproxy(&memory);
     if (!file.open(picture.path, spec)) return false;
     for (int y = 0; y < picture.height; ++y)
         if (!file.write_scanline(y, 0, OIIO::TypeDesc::FLOAT, picture.row(picture.source, y))) return false;
-    return file.close();
+    if (!file.close()) return false;
+    picture.put(picture.bytes, memory.buffer().data(), memory.size());
+    return true;
 }
 
 const char *write(const OiioPicture &picture) {
     thread_local std::string why;
     const auto file = OIIO::ImageOutput::create(picture.format);
+    // libjpeg would end the process.
+    if (file && file->format_name() == std::string("jpeg") && std::max(picture.width, picture.height) > 65500)
+        return "a JPEG has at most 65500 pixels on a side";
     if (file && written(*file, picture)) return nullptr;
     why = file ? file->geterror() : OIIO::geterror();
     return why.c_str();

@@ -11,14 +11,18 @@
 namespace sparselens {
 
 struct OiioPicture {
-    const char *path;
-    const char *format; // the extension of the format (png, without the dot); `path` need not end in it
+    const char *format; // its extension (png, without the dot)
+    const char *path; // of a file for the formats that are written only to files; it need not end in `format`
     void *source;
     const float *(*row)(void *source, int y); // row y from the top: pixel by pixel, channels together
     int width, height;
     int channels;       // 3, or 4 with unassociated alpha
     int bits;           // 8 or 16
     float pixel_aspect; // width over height
+    // Takes the bytes of the other formats, piece by piece: where a file cannot grow, libpng's is cut off in silence, and
+    // libjpeg ends the process.
+    void (*put)(void *bytes, const void *piece, std::size_t count);
+    void *bytes;
 };
 
 struct OiioSize {

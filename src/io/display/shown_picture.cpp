@@ -74,6 +74,9 @@ private:
 };
 
 const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
+void append(void *bytes, const void *piece, std::size_t count) {
+    static_cast<std::string *>(bytes)->append(static_cast<const char *>(piece), count);
+}
 
 // R, G and B, and A if it is below 1 anywhere.
 std::vector<std::size_t> channels_of(const std::string &name, const Image &image, bool may_have_alpha) {
@@ -139,12 +142,19 @@ std::string shown_picture(const std::string &name, const std::string &format, co
     check_size(name, image);
     DisplayRows rows(image, channels, channels.size() > 3);
     const bool deep_bits = format.starts_with("tif") || format == "dpx";
-    const MemoryFile encoded; // OpenImageIO writes all formats to a file but only some of them to a stream
-    const char *failed = oiio.write({encoded.path().c_str(), format.c_str(), &rows, row_of,
-                                     image.windows.display_width(), image.windows.display_height(),
-                                     int(channels.size()), deep_bits ? 16 : 8, image.windows.pixel_aspect});
+    const MemoryFile file;
+    std::string bytes;
+    const char *failed =
+        oiio.write({format.c_str(), file.path().c_str(), &rows, row_of, image.windows.display_width(),
+                    image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
+                    image.windows.pixel_aspect, append, &bytes});
     if (failed) throw Error(name + ": cannot write: " + failed);
-    return read_bytes(encoded.path());
+    if (!bytes.empty()) return bytes;
+    // What writes to the file may not see that it is cut off. Encoded worse than not at all, it is twice as large.
+    const std::size_t largest = 65536 + 4 * channels.size() * std::size_t(image.windows.display_width()) *
+                                            std::size_t(image.windows.display_height());
+    if (!file.can_hold(largest)) fail_of_system(name, "cannot write");
+    return read_bytes(file.path());
 }
 
 void write_shown_picture(const std::string &path, const Image &image) {

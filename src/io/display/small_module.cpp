@@ -32,21 +32,17 @@ OiioModule::Support support(const char *extension) {
 [[noreturn]] void failed(png_structp, png_const_charp why) { throw std::runtime_error(why); }
 void warned(png_structp, png_const_charp) {}
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE *)>;
-File opened(const char *path, const char *how) {
-    File file(std::fopen(path, how), std::fclose);
-    if (!file) throw std::runtime_error("the file cannot be opened");
-    return file;
-}
-
 void write_file(const OiioPicture &picture) {
     struct Writer {
         png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, failed, warned);
         png_infop info = png_create_info_struct(png);
         ~Writer() { png_destroy_write_struct(&png, &info); }
     } writer;
-    const File file = opened(picture.path, "wb");
-    png_init_io(writer.png, file.get());
+    const auto put = [](png_structp png, png_bytep piece, std::size_t count) {
+        const auto &to = *static_cast<const OiioPicture *>(png_get_io_ptr(png));
+        to.put(to.bytes, piece, count);
+    };
+    png_set_write_fn(writer.png, const_cast<OiioPicture *>(&picture), put, nullptr);
     png_set_IHDR(writer.png, writer.info, png_uint_32(picture.width), png_uint_32(picture.height), 8,
                  picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -60,7 +56,6 @@ void write_file(const OiioPicture &picture) {
         png_write_row(writer.png, row.data());
     }
     png_write_end(writer.png, nullptr);
-    if (std::fflush(file.get()) != 0) throw std::runtime_error("the file cannot be written to its end");
 }
 
 // The pixels of a file as they are stored, and how they are turned (Exif, 1 to 8).
@@ -157,7 +152,8 @@ Stored read_jpeg(std::FILE *file, bool values) {
 }
 
 void read_file(const char *path, OiioSize &size, float *values) {
-    const File file = opened(path, "rb");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path, "rb"), std::fclose);
+    if (!file) throw std::runtime_error("the file cannot be opened");
     const int first = std::fgetc(file.get());
     std::rewind(file.get());
     if (first != 0x89 && first != 0xff)

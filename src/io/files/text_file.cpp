@@ -87,4 +87,9 @@ MemoryFile::MemoryFile(std::string_view contents) : descriptor_(::memfd_create("
 
 MemoryFile::~MemoryFile() { ::close(descriptor_); }
 
+bool MemoryFile::can_hold(std::size_t bytes) const {
+    const off_t size = ::lseek(descriptor_, 0, SEEK_END);
+    return ::ftruncate(descriptor_, std::max(size, off_t(bytes))) == 0 && ::ftruncate(descriptor_, size) == 0;
+}
+
 } // namespace sparselens

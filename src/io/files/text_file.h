@@ -34,6 +34,9 @@ public:
     MemoryFile(const MemoryFile &) = delete;
     MemoryFile &operator=(const MemoryFile &) = delete;
 
+    // Whether it could have so many bytes. If not (errno tells why), what was written may be cut off.
+    bool can_hold(std::size_t bytes) const;
+
     // A path that opens the file, in this process only.
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 

@@ -6,10 +6,12 @@
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -97,6 +99,36 @@ TEST(ShownPicture, NoOtherFileIsWritten) {
     before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
     EXPECT_EQ(scratch.entries(), 4u);
     expect_reads_back(scratch.file("a.png"), noise(20, 10));
+}
+
+// A farm limits the size of files (ulimit -f): libpng's file is cut off then, and libjpeg ends the process.
+TEST(ShownPicture, WhatDoesNotFitReplacesNothing) {
+    const ScratchFolder scratch;
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN); // as tools do
+    for (const char *format : {"png", "jpg", "tif", "dpx", "bmp", "tga", "hdr", "webp", "sgi"}) {
+        const std::string path = scratch.file("a.") + format;
+        put_contents(path, "good");
+        const rlimit small{2048, before.rlim_max};
+        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+        const std::string what = what_of<Error>([&] { write_shown_picture(path, noise(120, 90)); });
+        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+        EXPECT_TRUE(what.starts_with(path + ": cannot write: ")) << format << ": " << what;
+        EXPECT_TRUE(contents_of(path) == "good") << format;
+    }
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(scratch.entries(), 9u);
+}
+
+TEST(ShownPicture, MayBeTooLargeForItsFormat) {
+    const ScratchFolder scratch;
+    for (const char *name : {"a.jpg", "a.webp"}) {
+        const std::string path = scratch.file(name),
+                          what = what_of<Error>([&] { write_shown_picture(path, noise(70'000, 1)); });
+        EXPECT_TRUE(what.starts_with(path + ": cannot write: ")) << what;
+    }
+    EXPECT_EQ(scratch.entries(), 0u);
 }
 
 TEST(ShownPicture, AsksForNoMoreMemoryThanItsPixelsExplain) {
