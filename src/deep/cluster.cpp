@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sparselens {
 
@@ -18,9 +19,17 @@ struct Pixel {
     std::size_t alpha;
     std::uint64_t begin, end;
     double scale;
+    std::optional<double> apart = {}; // for the gather: how far apart positions may be, pixels
     double front(std::uint64_t i) const { return disparity(scale, ldi.z[i]); }
-    double back(std::uint64_t i) const { return disparity(scale, back_at(ldi, i)); }
+    double back(std::uint64_t i) const { return apart ? front(i) : disparity(scale, back_at(ldi, i)); }
     double image(std::uint64_t i) const { return disparity(scale, ldi.coc_z(i)); }
+    // Whether sample i may be in a run from `first` to the sample before it, by all but its depth.
+    bool goes_on(std::uint64_t first, std::uint64_t i) const {
+        const auto near = [&](const std::vector<float> &offset) {
+            return offset.empty() || double(std::abs(offset[i] - offset[first])) <= *apart;
+        };
+        return !apart || (!is_opaque(alpha_at(ldi, alpha, i - 1)) && near(ldi.dx) && near(ldi.dy));
+    }
 };
 
 // A run of samples of a pixel that grows at its back.
@@ -50,7 +59,7 @@ std::uint64_t end_of_run(const Pixel &p, std::uint64_t first, double extent) {
     Run run(p, first);
     for (std::uint64_t i = first + 1; i < p.end; ++i) {
         run.add(i);
-        if (!(run.extent() <= extent)) return i;
+        if (!(run.extent() <= extent) || !p.goes_on(first, i)) return i;
     }
     return p.end;
 }
@@ -92,14 +101,14 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, std::vec
     });
 }
 
-bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
-    for (std::uint64_t i = first; i <= last; ++i)
-        if (back_at(ldi, i) > ldi.z[i]) return true;
-    return false;
+std::uint64_t count_volumes(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
+    std::uint64_t count = 0;
+    for (std::uint64_t i = first; i <= last; ++i) count += is_volume(ldi, i);
+    return count;
 }
 
 // Depth, position and weight of the merged sample: means over what each of its samples shows. If a volume is among
-// them, the result is a volume from the nearest depth to the farthest.
+// them, the result is a volume from the nearest depth to the farthest; for the gather, volumes only have a back.
 MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     const std::uint64_t first = terms.front().index, last = terms.back().index;
     MergedSample merged = sample_at(p.ldi, first);
@@ -116,10 +125,10 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
         dy += share * s.dy;
         weight += s.weight;
     }
-    if (holds_volume(p.ldi, first, last))
-        merged.z_back = back_at(p.ldi, last);
-    else
+    const std::uint64_t volumes = count_volumes(p.ldi, first, last);
+    if (p.apart || volumes == 0)
         merged.z = merged.z_back = std::clamp(float(shown / inverse_z), p.ldi.z[first], p.ldi.z[last]);
+    if (p.apart ? volumes > last - first : volumes > 0) merged.z_back = back_at(p.ldi, last);
     merged.dx = float(dx / shown);
     merged.dy = float(dy / shown);
     merged.weight = float(weight);
@@ -158,6 +167,19 @@ Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progr
     });
     for (const double extent : largest) result.largest_error = std::max(result.largest_error, extent);
     return result;
+}
+
+Ldi cluster_for_gather(Ldi ldi, double scale, double tolerance) {
+    const ClusterOptions options{.scale = scale, .tolerance = tolerance};
+    const std::size_t alpha = ldi.alpha();
+    const auto at = [&](std::size_t pixel) {
+        return Pixel{ldi, alpha, ldi.pixel(pixel).from, ldi.pixel(pixel).to, scale, tolerance};
+    };
+    rebuild_pixels(
+        ldi,
+        [&](std::size_t pixel) { return count_clusters(at(pixel), tolerance) < ldi.pixel(pixel).size(); },
+        [&](std::size_t pixel, Ldi &out) { cluster_pixel(at(pixel), options, out); });
+    return ldi;
 }
 
 } // namespace sparselens

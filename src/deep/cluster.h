@@ -25,4 +25,12 @@ struct Clustered {
 
 Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress);
 
+// The same in place, for the gather (dof/merge_layers.h), which sees behind what is opaque and moves samples by their
+// positions:
+// - An opaque sample ends its cluster, and the samples behind it stay.
+// - Positions in a cluster differ by at most the tolerance, too.
+// - Volumes count as points. A cluster of volumes alone stays a volume.
+// Needs A, and coverage must not differ by channel.
+Ldi cluster_for_gather(Ldi ldi, double scale, double tolerance);
+
 } // namespace sparselens

@@ -90,15 +90,6 @@ TEST(MergeLayers, WhereThereIsNothingToMergeAllButExtentsAndWeightsStays) {
     EXPECT_TRUE(out.z_back.empty() && out.weight.empty());
 }
 
-TEST(MergeLayers, UsingUpTheSamplesGivesTheSame) {
-    Ldi ldi = tidy(random_ldi({.seed = 8, .width = 40, .height = 30, .depths = 64}));
-    const Ldi kept = merge_layers(ldi, 4, 0.5);
-    const Ldi used = merge_layers(std::move(ldi), 4, 0.5);
-    EXPECT_EQ(used.begin, kept.begin);
-    EXPECT_EQ(used.z, kept.z);
-    EXPECT_EQ(used.values, kept.values);
-}
-
 TEST(MergeLayers, CryptomattesAndPerChannelAlphaAreLeftAlone) {
     Ldi ldi = ldi_of({{at(5, 0.5f), at(4.9, 0.5f)}});
     ldi.channels.push_back({"AR"});
