@@ -21,12 +21,9 @@ dof/lens/highlights.h cell octaves
 dof/lens/visibility.cpp half
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
-dof/lens/highlight_shadows.cpp rounding
 dof/lens/block_footprints.cpp in_area
 dof/lens/block_footprints.h rounding
 dof/lens/shadow_search.cpp rounding
-dof/lens/shadow_search.cpp all_blocks longest_of_many
-dof/lens/shadow_search.h none
 dof/lens/shadow_search.cpp edge
 dof/lens/shadow_search.h beside
 dof/lens/fillers.cpp directions unknown
@@ -37,7 +34,6 @@ dof/lens/accumulator.h sides
 dof/lens/sample_blocks.h background size
 dof/lens/tile_projection.cpp rounding
 dof/methods.cpp ids_at_once
-dof/merge_layers.cpp pixels_at_once
 dof/merge_layers.h layer_tolerance_px
 dof/selective/splats.h sums_before_colours
 dof/selective/selective.cpp at_once

@@ -35,11 +35,9 @@ const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedL
 }
 
 void HighlightShadows::begin(const Imath::V2i &origin, double pixel_aspect, const Imath::V2d &extent,
-                             const CoarseCasters *coarse, const ShadowLists *lists) {
+                             const CoarseCasters *coarse) {
     origin_ = origin;
     pixel_aspect_ = pixel_aspect;
-    extent_ = extent;
-    lists_ = lists;
     search_.begin(extent, coarse);
 }
 
@@ -58,41 +56,6 @@ std::uint32_t HighlightShadows::middle_of(std::span<const std::uint32_t> group) 
     const Imath::V2d mean = sum / double(group.size());
     return *std::ranges::min_element(
         group, {}, [&](std::uint32_t h) { return (Imath::V2d(place(h)) - mean).length2(); });
-}
-
-// Returns all blocks that may cast a shadow on some tile that the lamp's disc reaches.
-std::vector<CastingBlock> HighlightShadows::blocks_of_disc(const ShadowedLamp &lamp) const {
-    ShadowedLamp whole = lamp;
-    whole.origin = {0, 0};
-    whole.lamp.centre += Imath::V2d(origin_);
-    const Imath::V2d middle = whole.lamp.centre,
-                     reach = std::abs(lamp.lamp.coc) * extent_ + Imath::V2d(lamp.spread + 1);
-    const auto pixel = [](double v) { return int(std::floor(v)); };
-    whole.screen.middle = middle;
-    whole.screen.box = {{pixel(middle.x - reach.x), pixel(middle.y - reach.y)},
-                        {pixel(middle.x + reach.x), pixel(middle.y + reach.y)}};
-    std::vector<CastingBlock> blocks;
-    search_.for_each(whole, [&](const CastingBlock &block) {
-        blocks.push_back(block);
-        return true;
-    });
-    return blocks;
-}
-
-// Calls visit(block) for the blocks that may cast a shadow, until it returns false.
-template <typename Visit>
-void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t first_member,
-                                      const Visit &visit) const {
-    const std::vector<CastingBlock> *list =
-        lists_ && !lamp.screen.fine ? lists_->of(first_member, [&] { return blocks_of_disc(lamp); })
-                                    : nullptr;
-    if (!list) return search_.for_each(lamp, visit);
-    constexpr float rounding = 0.01f; // pixels: by how much the list may be off
-    const Imath::V2i first = lamp.screen.box.min + origin_, last = lamp.screen.box.max + origin_;
-    const Imath::Box2f box(Imath::V2f(first) - Imath::V2f(rounding),
-                           Imath::V2f(last) + Imath::V2f(1 + rounding));
-    for (const CastingBlock &block : *list)
-        if (block.shadow.intersects(box) && !visit(block)) return;
 }
 
 void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::Box2i &box) {
@@ -122,7 +85,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     const Imath::V2i moves(int(std::ceil(group_->spread)));
     in_place_.box = box;
     in_disc_.box = {box.min - moves, box.max + moves};
-    for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
+    search_.for_each(*group_, [&](const CastingBlock &b) {
         const ShadowCasters &casters = search_.casters(b.set);
         const ShadowSearch::Range range = search_.range_of(*group_, casters);
         // some coarse casters are far enough in front of the farthest member only
@@ -166,7 +129,7 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     own_.any = false;
     own_.box = screen.box;
     if (!group_)
-        for_each_block(asked, highlight, [&](const CastingBlock &b) {
+        search_.for_each(asked, [&](const CastingBlock &b) {
             const ShadowSearch::Range range = search_.range_of(asked, search_.casters(b.set));
             for_each_caster(asked, b, range, [&](const Caster &caster) {
                 cast_one(own_, asked, range, caster, edges_of(asked, caster));

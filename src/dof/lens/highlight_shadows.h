@@ -45,10 +45,9 @@ public:
         : highlights_(highlights), samples_(sets.front().samples), search_(sets) {}
 
     // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `extent`: of the lens,
-    // pixels per pixel of CoC. `coarse`: given if the tile is gathered in cells. `lists`: shared by the tiles that are
-    // gathered from the same scene.
+    // pixels per pixel of CoC. `coarse`: given if the tile is gathered in cells.
     void begin(const Imath::V2i &origin, double pixel_aspect, const Imath::V2d &extent,
-               const CoarseCasters *coarse = nullptr, const ShadowLists *lists = nullptr);
+               const CoarseCasters *coarse = nullptr);
 
     // Below, a highlight is given by its index in Highlights.
     // Finds the shadows that the members of a group share, in the pixels of a box. cast() adds the other shadows of
@@ -99,9 +98,6 @@ private:
     };
     Imath::V2f place(std::uint32_t highlight) const; // relative to the data window's corner
     std::uint32_t middle_of(std::span<const std::uint32_t> group) const;
-    template <typename Visit>
-    void for_each_block(const ShadowedLamp &lamp, std::uint32_t first_member, const Visit &visit) const;
-    std::vector<CastingBlock> blocks_of_disc(const ShadowedLamp &lamp) const;
     Imath::V2i moved(std::uint32_t member) const;
     Shadow *shared_by_all(const ShadowEdges &edges);
     struct Caster {
@@ -125,10 +121,8 @@ private:
     const Highlights &highlights_;
     const BlockedSamples &samples_;
     ShadowSearch search_;
-    const ShadowLists *lists_ = nullptr;
     Imath::V2i origin_;
     double pixel_aspect_ = 1;
-    Imath::V2d extent_{1, 1};
     bool is_moved_ = false;             // whether the group is moved along a path
     std::optional<ShadowedLamp> group_; // set for a group of several samples
     std::vector<Caster> apart_;         // casters whose shadows differ between the members of the group

@@ -46,12 +46,12 @@ bool HighlightTile::dark(int x, int y) const {
 }
 
 void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                           const CoarseCasters *coarse, const ShadowLists *lists) {
+                           const CoarseCasters *coarse) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, scene_.pixel_aspect(), half_extent_, coarse, lists);
+    shadows_.begin(origin, scene_.pixel_aspect(), half_extent_, coarse);
     const auto spread_all = [&](std::span<const std::uint32_t> group) {
         if (!scene_.optics->field.skews()) return spread_group(group);
         for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));

@@ -30,7 +30,7 @@ public:
     // Spreads highlights over the tile whose first pixel is `origin`, relative to the data window's corner like the
     // samples. `blocks`: those that can reach it. `coarse`: given if the tile is gathered in cells.
     void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                const CoarseCasters *coarse = nullptr, const ShadowLists *lists = nullptr);
+                const CoarseCasters *coarse = nullptr);
 
     // The light at a pixel of the tile. dark(): no light reaches it.
     float value(int x, int y, std::size_t channel) const { return light_[at(x, y, channel)]; }

@@ -46,14 +46,12 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-// Footprints of all that casts shadows in a scene, and the shadow lists of the highlights in its tiles.
+// Footprints of all that casts shadows in a scene.
 struct SceneFootprints {
     BlockFootprints samples, solids, hiding;
-    ShadowLists shadows;
     SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
         : samples(*scene.ldi, scene.samples, links_of(scene, of_highlights)),
-          solids(*scene.ldi, scene.solids), hiding(*scene.ldi, scene.fillers.hiding),
-          shadows(of_highlights.highlights, of_highlights.samples) {}
+          solids(*scene.ldi, scene.solids), hiding(*scene.ldi, scene.fillers.hiding) {}
     static std::optional<Links> links_of(const GatherScene &scene, const GatherScene &of_highlights) {
         if (of_highlights.highlights.sample.empty()) return {}; // nothing is shadowed
         return Links(*scene.ldi, scene.lens);
@@ -112,8 +110,7 @@ struct Gathering {
         chosen.lens_points[tile.tile] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
         const std::optional<CoarseCasters> coarse = coarse_casters(tile);
-        lit.spread(tile.first - scene.optics->corner, tile.blocks.samples, coarse ? &*coarse : nullptr,
-                   &footprints.at(tile.scene).shadows);
+        lit.spread(tile.first - scene.optics->corner, tile.blocks.samples, coarse ? &*coarse : nullptr);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // If the few lens points of a pixel all miss, it stays sharp, which is better than black.

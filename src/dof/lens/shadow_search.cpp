@@ -77,20 +77,18 @@ bool ShadowSearch::is_before(const ShadowedLamp &lamp, const Imath::Box2f &lens_
     return reaches(0) && reaches(1);
 }
 
-// Returns where on the screen the shadow of what is in these bounds and in a range of depths may lie; empty: nowhere.
-Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const Imath::Box2f &lens_points,
-                                     const ShadowCasters &casters, const CasterBounds &bounds,
-                                     const Range &range) const {
+// Whether the shadow of what is in these bounds and in a range of depths may lie on the screen.
+bool ShadowSearch::shadows_screen(const ShadowedLamp &asked, const Imath::Box2f &lens_points,
+                                  const ShadowCasters &casters, const CasterBounds &bounds,
+                                  const Range &range) const {
     const CocRange cocs = bounds.cocs_between(range.farthest, range.nearest);
-    if (cocs.least > cocs.most) return {};
+    if (cocs.least > cocs.most) return false;
     const Lamp &lamp = asked.lamp;
     const ShadowScreen &screen = asked.screen;
     const double cell = double(casters.across), least_coc = cell * double(cocs.least),
                  most_coc = cell * double(cocs.most);
-    const Imath::Box2f all(Imath::V2f(screen.box.min), Imath::V2f(screen.box.max + Imath::V2i(1)));
     if (least_coc <= lamp.coc && most_coc >= lamp.coc)
-        return is_before(asked, lens_points, casters, bounds, range) ? all : Imath::Box2f();
-    Imath::Box2f shadow;
+        return is_before(asked, lens_points, casters, bounds, range);
     const auto reach = [&](int axis) {
         const double a = shadow_magnification(lamp.coc, least_coc, screen.scale[axis]),
                      b = shadow_magnification(lamp.coc, most_coc, screen.scale[axis]);
@@ -101,11 +99,9 @@ Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const Imath::Box
                      high = cell * double(bounds.place.max[axis]) - lamp_at;
         const auto [begins, ends] = std::minmax({a * low, a * high, b * low, b * high});
         const double begin = screen.middle[axis] + begins - half, end = screen.middle[axis] + ends + half;
-        shadow.min[axis] = float(std::max(begin, double(all.min[axis])));
-        shadow.max[axis] = float(std::min(end, double(all.max[axis])));
-        return !(end < double(all.min[axis]) || begin > double(all.max[axis]));
+        return end >= double(screen.box.min[axis]) && begin <= double(screen.box.max[axis] + 1);
     };
-    return reach(0) && reach(1) ? shadow : Imath::Box2f();
+    return reach(0) && reach(1);
 }
 
 // The lamps of a group differ in position and in CoC. Both move an edge; the CoC does so by changing the magnification.
@@ -126,30 +122,6 @@ bool ShadowEdges::may_reach(const ShadowedLamp &group) const {
         box.min[axis] -= moves + rounding, box.max[axis] += moves + rounding;
     }
     return reaches(box, group.screen.box);
-}
-
-namespace {
-
-constexpr float wide = lens_tile_size / 2;   // pixels of CoC, from which on a disc reaches several tiles
-constexpr std::size_t all_blocks = 2u << 20; // in all lists: 64 MB, more with more than 32768 lists
-constexpr std::size_t longest_of_many = 64;  // blocks
-
-} // namespace
-
-ShadowLists::ShadowLists(const Highlights &highlights, const BlockedSamples &samples)
-    : number_(highlights.sample.size(), none) {
-    std::uint32_t lists = 0;
-    if (highlights.sample.empty()) return;
-    const auto number = [&](std::span<const std::uint32_t> group) {
-        const std::uint32_t first = group.front();
-        if (std::abs(samples.coc[highlights.sample[first]]) >= wide) number_[first] = lists++;
-    };
-    for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) highlights.groups.for_each(b, number);
-    Imath::Box2f all;
-    all.makeInfinite();
-    highlights.groups.for_each_moved(all, 1, number);
-    lists_ = std::vector<List>(lists);
-    longest_ = std::max(longest_of_many, all_blocks / std::max<std::size_t>(lists, 1));
 }
 
 } // namespace sparselens

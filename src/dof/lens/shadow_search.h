@@ -20,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
@@ -79,7 +78,6 @@ struct ShadowedLamp {
 
 struct CastingBlock {
     std::uint32_t number, set; // the block, and the number of its set of casters
-    Imath::Box2f shadow;       // where it may lie on the lamp's screen
 };
 
 class ShadowSearch {
@@ -109,9 +107,8 @@ private:
     Imath::Box2f lens_points_of(const ShadowedLamp &lamp) const;
     bool is_before(const ShadowedLamp &lamp, const Imath::Box2f &lens_points, const ShadowCasters &casters,
                    const CasterBounds &bounds, const Range &range) const;
-    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const Imath::Box2f &lens_points,
-                           const ShadowCasters &casters, const CasterBounds &bounds,
-                           const Range &range) const;
+    bool shadows_screen(const ShadowedLamp &lamp, const Imath::Box2f &lens_points,
+                        const ShadowCasters &casters, const CasterBounds &bounds, const Range &range) const;
 
     CasterSets casters_; // and those of the tile's coarse scene
     std::size_t own_;    // how many of them are not coarse
@@ -146,9 +143,8 @@ void ShadowSearch::for_each(const ShadowedLamp &lamp, const Visit &visit) const 
                 before = lie_between(casters.samples, b, within.farthest, within.nearest)
                              ? casters.footprints.of(b).nearer_than(within.farthest)
                              : nullptr;
-            const Imath::Box2f shadow =
-                before ? shadow_of(lamp, lens_points, casters, *before, within) : Imath::Box2f();
-            return shadow.isEmpty() || visit(CastingBlock{b, set, shadow});
+            return !before || !shadows_screen(lamp, lens_points, casters, *before, within) ||
+                   visit(CastingBlock{b, set});
         };
         if (!casters.footprints.for_each(pass, visit_block)) return;
     }
@@ -208,43 +204,6 @@ inline bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box) {
         if (!(high > begin && low <= end && high > low)) return false;
     }
     return true;
-}
-
-// Lists of what may cast shadows on wide discs, made once for all tiles of a picture: a disc reaches many tiles, and
-// few of the blocks in front of it are near enough to its light's path.
-class ShadowLists {
-public:
-    // Lists for groups of highlights among these samples.
-    ShadowLists(const Highlights &highlights, const BlockedSamples &samples);
-
-    // Returns the list of the group with this first member. The first call, by any thread, takes it from find(). Null:
-    // the disc of the group is small, or the list is too long to be kept.
-    template <typename Find>
-    const std::vector<CastingBlock> *of(std::uint32_t first_member, const Find &find) const;
-
-private:
-    struct List {
-        std::once_flag found;
-        std::vector<CastingBlock> blocks;
-        bool kept = false;
-    };
-    static constexpr std::uint32_t none = 0xffffffffu;
-    // [highlight]: the number of its group's list if it is the first of the group; or none
-    std::vector<std::uint32_t> number_;
-    std::size_t longest_ = 0;
-    mutable std::vector<List> lists_;
-};
-
-template <typename Find>
-const std::vector<CastingBlock> *ShadowLists::of(std::uint32_t first_member, const Find &find) const {
-    if (number_[first_member] == none) return nullptr;
-    List &list = lists_[number_[first_member]];
-    std::call_once(list.found, [&] {
-        std::vector<CastingBlock> blocks = find();
-        list.kept = blocks.size() <= longest_;
-        if (list.kept) list.blocks = {blocks.begin(), blocks.end()}; // without spare capacity
-    });
-    return list.kept ? &list.blocks : nullptr;
 }
 
 } // namespace sparselens

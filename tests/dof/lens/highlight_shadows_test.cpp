@@ -68,11 +68,10 @@ struct LampBehindBoards : BlockedLdi {
         highlights.sample = lamp;
     }
 
-    // The lit share at each pixel of the tile at `origin`, for each sample of the lamp in turn.
-    std::vector<float> lit(bool together, const Imath::V2i &origin = {0, 0},
-                           const ShadowLists *lists = nullptr) {
+    // The lit share at each pixel of the tile, for each sample of the lamp in turn.
+    std::vector<float> lit(bool together) {
         HighlightShadows shadows(highlights, {{samples, footprints}, {solids, solid_footprints}});
-        shadows.begin(origin, 1, {1, 1}, nullptr, lists);
+        shadows.begin({0, 0}, 1, {1, 1});
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);
@@ -130,54 +129,6 @@ TEST(HighlightShadows, OfWhatIsFarInFrontMoveWithTheDiscs) {
     EXPECT_GT(hidden / lamps, 0.1 * square);
     EXPECT_LT(hidden / lamps, 0.9 * square);
     EXPECT_GT(off, 0); // else they were not shared
-}
-
-// A list holds everything that casts on any tile of the disc, so tiles may be requested in any order.
-TEST(HighlightShadows, AreTheSameByListsOfTheWholeDisc) {
-    for (const double boards : {-40.0, 90.0, 0.9 * lamp_coc}) {
-        const Ldi ldi = LampBehindBoards::scene(boards);
-        LampBehindBoards scene(ldi);
-        scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
-        bool any_hidden = false;
-        for (const bool together : {true, false}) {
-            const ShadowLists lists(scene.highlights, scene.samples);
-            for (const auto &origin : {Imath::V2i(-64, 0), Imath::V2i(0, 0), Imath::V2i(128, -192)}) {
-                const std::vector<float> listed = scene.lit(together, origin, &lists);
-                EXPECT_EQ(listed, scene.lit(together, origin)) << boards << origin;
-                any_hidden = any_hidden || mean(listed) < 0.9;
-            }
-        }
-        EXPECT_TRUE(any_hidden) << boards;
-    }
-}
-
-TEST(ShadowLists, AreFoundOnceAndKeptWhereTheyAreShort) {
-    const Ldi ldi = LampBehindBoards::scene(90);
-    LampBehindBoards scene(ldi);
-    scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
-    const auto times_found = [&](std::size_t blocks) {
-        const ShadowLists lists(scene.highlights, scene.samples);
-        int found = 0;
-        const auto find = [&] {
-            ++found;
-            return std::vector<CastingBlock>(blocks);
-        };
-        const auto *first = lists.of(0, find), *again = lists.of(0, find);
-        EXPECT_EQ(first, again);
-        EXPECT_EQ(lists.of(1, find), nullptr); // not the first of its group
-        return std::pair(found, first ? first->size() : 0);
-    };
-    EXPECT_EQ(times_found(7), std::pair(1, std::size_t(7)));
-    EXPECT_EQ(times_found(std::size_t(4) << 20), std::pair(1, std::size_t(0)));
-}
-
-TEST(ShadowLists, AreOfWideDiscsAlone) {
-    const Ldi ldi = LampBehindBoards::scene(90);
-    LampBehindBoards scene(ldi);
-    scene.highlights.groups = HighlightGroups({scene.samples, scene.lamp, {}});
-    for (float &coc : scene.samples.coc) coc /= 10;
-    const ShadowLists lists(scene.highlights, scene.samples);
-    EXPECT_EQ(lists.of(0, [] { return std::vector<CastingBlock>(1); }), nullptr);
 }
 
 TEST(HighlightShadows, OfWhatStandsRightBeforeALampAreCastForEachSample) {
