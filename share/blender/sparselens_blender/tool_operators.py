@@ -41,7 +41,7 @@ class SPARSELENS_OT_install_tools(bpy.types.Operator):
     def execute(self, context):
         try:
             folder = unpack.unpack(bpy.path.abspath(self.filepath),
-                                   tools.folder_of_archives())
+                                   tools.folder_of_archives(), tools.version)
             text = "%s, installed: %s" % (tools.version(folder), folder)
         except ERRORS as error:
             report(self, "ERROR", error)

@@ -8,7 +8,7 @@ import subprocess
 
 import bpy
 
-from . import unpack
+from .unpack import folders_unpacked, unpack
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 ENDING = ".exe" if os.name == "nt" else ""
@@ -28,13 +28,6 @@ def folder_of_archives():
                                    create=True)
 
 
-def folders_unpacked(place):
-    """The folders bin of archives that are unpacked in this place, the newest
-    version first."""
-    return sorted(glob.glob(os.path.join(glob.escape(place), "sparselens-*",
-                                         "bin")), reverse=True)
-
-
 def folders_installed():
     """What Install Tools unpacked; before that, the archive that came in the
     add-on's own zip, unless a newer one is installed."""
@@ -45,7 +38,7 @@ def folders_installed():
         if os.path.join(place, name, "bin") > max(folders_unpacked(place),
                                                   default=""):
             try:
-                unpack.unpack(archive, place)
+                unpack(archive, place, version)
             except (OSError, ValueError):
                 pass  # another Blender has unpacked it, or there is no room
     return folders_unpacked(place)

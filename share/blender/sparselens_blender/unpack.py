@@ -1,6 +1,7 @@
 """Unpacks the archive of the tools, which tools/bundle.sh makes, for the
 add-on."""
 
+import glob
 import lzma
 import os
 import re
@@ -28,18 +29,25 @@ def top_of(archive, path):
     return tops.pop()
 
 
-def unpack(path, folder):
+def folders_unpacked(place):
+    """The folders bin of archives that are unpacked in this place, the newest
+    version first."""
+    return sorted(glob.glob(os.path.join(glob.escape(place), "sparselens-*",
+                                         "bin")), reverse=True)
+
+
+def unpack(path, folder, check):
     """Unpacks the archive into the folder, in the place of earlier ones.
-    Returns the folder of the tools. Nothing changes if they do not run."""
-    from . import tools  # which uses this module, too
+    Returns the folder of the tools. Nothing changes if check(folder) raises
+    an exception, because they do not run."""
     try:
         with tarfile.open(path) as archive:
             top = top_of(archive, path)
             made = tempfile.mkdtemp(prefix=".new-", dir=folder)
             try:
                 archive.extractall(made)
-                tools.version(os.path.join(made, top, "bin"))
-                for old in tools.folders_unpacked(folder):
+                check(os.path.join(made, top, "bin"))
+                for old in folders_unpacked(folder):
                     shutil.rmtree(os.path.dirname(old))
                 os.replace(os.path.join(made, top), os.path.join(folder, top))
             finally:

@@ -1,5 +1,5 @@
-// The data of the warp's kernels (warp_frame.h): the samples of all views, the samples that fall into each pixel of the
-// centre view, and the result.
+// The data of the warp's kernels (kernels/warp_layout.h): the samples of all views, the samples that fall into each pixel
+// of the centre view, and the result.
 //
 // Arithmetic is in double precision and in the CPU's order, without fused multiply-add (`precise`), so that the samples
 // equal those of src/warp bit for bit.
