@@ -55,7 +55,7 @@ public:
     }
     Image plate(const FrameFiles &frame) {
         if (is_shown_picture(frame.plate)) {
-            Image image = read_shown_picture(frame.plate);
+            Image image = read_shown_picture(frame.plate).image;
             if (!holds_linear_light(frame.plate)) to_linear(tool_.notify(), {}, frame.plate, {}, image);
             return image;
         }

@@ -9,15 +9,15 @@ set -eu
 
 release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-release}" 2>/dev/null || true)
 blender='blender libgl1-mesa-dri xauth xvfb'
-build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
-       libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
-bundle='help2man libjpeg-dev libpng-dev xz-utils'
+build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
+       libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
+bundle='help2man xz-utils'
 ci=ccache
 demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
-test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev libjpeg-dev libpng-dev lintian
+test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
       munge mypy openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
 # Differences between releases. The sources are formatted by clang-format 14, which only Debian 12 has; the extensions

@@ -8,10 +8,12 @@
 #include "deep/view_samples.h"
 #include "io/camera/camera_header.h"
 #include "io/display/colour.h"
+#include "io/display/icc_profile.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
+#include "io/photograph.h"
 #include "lens/thin_lens.h"
 
 #include <ImfStandardAttributes.h>
@@ -54,8 +56,25 @@ struct LinearColours {
     std::optional<ColourTransform> transform = {}; // into that space; empty: nothing to do
 };
 
+// Photographs come in their own encoding, and go back to it, whatever the configuration: sRGB, or that of their profile.
+LinearColours of_photograph(const Imf::Header &header, const ShownExtras &extras) {
+    const ColourConfig config = ColourConfig::built_in();
+    LinearColours result{with_space(config, header, config.scene_linear()),
+                         transform_of_profile(extras.profile, ProfileDirection::to_linear)};
+    if (!result.transform) result.transform = config.between("sRGB", config.scene_linear());
+    return result;
+}
+
 LinearColours linear_colours(const Notify &notify, const ColourOptions &options, const std::string &path,
-                             const Imf::Header &header) {
+                             const Imf::Header &stated_header) {
+    if (const auto extras = extras_of(stated_header);
+        extras && options.config.empty() && options.input_space.empty()) {
+        notify({NoticeKind::colour_space,
+                display_name(path),
+                {extras->profile.empty() ? "sRGB" : "of its profile"}});
+        return of_photograph(stated_header, *extras);
+    }
+    const Imf::Header header = without_extras(stated_header);
     const bool says = states_space(header), asked = !options.input_space.empty();
     const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
     if (!asked && !says && (ours || is_pipe(path))) return {header};
@@ -147,8 +166,19 @@ void to_space_of(const Notify &notify, const ColourOptions &options, const Named
                       image);
 }
 
+namespace {
+
+// What a picture made from a photograph keeps of its file, unless another encoding is asked for.
+std::optional<ShownExtras> kept_extras(const ColourOptions &options, const Imf::Header &metadata) {
+    if (!(options.config + options.output_space + options.display + options.view).empty()) return {};
+    return extras_of(metadata);
+}
+
+} // namespace
+
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
-    const ColourConfig config(options.config);
+    const ColourConfig config =
+        kept_extras(options, metadata) ? ColourConfig::built_in() : ColourConfig(options.config);
     const std::string from = space_of(config, metadata);
     return options.output_space.empty() ? config.to_display(options.display, options.view, from)
                                         : config.between(from, options.output_space);
@@ -163,13 +193,14 @@ void to_exr_space(const ColourOptions &options, const std::string &path, Image &
     header = with_space(config, header, options.output_space);
 }
 
-bool to_shown_colours(const ColourOptions &options, const std::string &path, Image &image,
-                      const Imf::Header &metadata) {
-    drop_unwritten_coverage(path, image);
+std::optional<ShownExtras> to_shown_colours(const ColourOptions &options, const std::string &path,
+                                            Image &image, const Imf::Header &metadata) {
     if (holds_linear_light(path) && (options.output_space + options.display + options.view).empty())
-        return false;
-    transform_colours(output_transform(options, metadata), image);
-    return true;
+        return {};
+    const std::optional<ShownExtras> kept = kept_extras(options, metadata);
+    const auto own = kept ? transform_of_profile(kept->profile, ProfileDirection::from_linear) : std::nullopt;
+    transform_colours(own ? *own : output_transform(options, metadata), image);
+    return kept.value_or(ShownExtras());
 }
 
 std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,
@@ -185,8 +216,10 @@ std::size_t write_picture(const Notify &notify, const ColourOptions &options, co
     }
     if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
     if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
-    if (to_shown_colours(options, path, image, header)) notify({NoticeKind::displayed, path});
-    write_shown_picture(path, image);
+    if (drop_unwritten_coverage(path, image) && extras_of(header)) notify({NoticeKind::dropped_alpha, path});
+    const std::optional<ShownExtras> extras = to_shown_colours(options, path, image, header);
+    if (extras) notify({NoticeKind::displayed, path});
+    write_shown_picture(path, image, extras.value_or(ShownExtras()));
     return 0;
 }
 

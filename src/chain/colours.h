@@ -3,6 +3,7 @@
 
 #include "../deep/ldi.h"
 #include "../io/display/colour.h"
+#include "../io/display/shown_picture.h"
 #include "../io/exr/compression.h"
 #include "../io/exr/exr_flat.h"
 #include "../io/open_ldi.h"
@@ -59,15 +60,16 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
 // write_picture(). Throws UsageError, naming `path`, if a display is given.
 void to_exr_space(const ColourOptions &options, const std::string &path, Image &image, Imf::Header &header);
 
-// Converts the linear colours of a picture to those of the file `path` (PNG, JPEG, .hdr and the like), and drops
-// coverage that it cannot hold; see write_picture(). Returns false if the colours stay linear.
-bool to_shown_colours(const ColourOptions &options, const std::string &path, Image &image,
-                      const Imf::Header &metadata);
+// Converts the linear colours of a picture to those of the file `path` (PNG, JPEG, .hdr and the like); see
+// write_picture(). Returns what the file holds beside them; nothing if the colours stay linear.
+std::optional<ShownExtras> to_shown_colours(const ColourOptions &options, const std::string &path,
+                                            Image &image, const Imf::Header &metadata);
 
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, or else scene-linear. OpenEXR
 // files are written in `output_colorspace` (default: the picture's own), stated by chromaticities; so are files of
 // linear light such as .hdr. PNG, JPEG, TIFF and the like are written in `output_colorspace`, or else through `display`
-// and `view_transform` (default: those of the configuration). `compression` is that of OpenEXR (compression.h). Throws
+// and `view_transform` (default: those of the configuration); those of a photograph without either in its own encoding,
+// with what its file holds beside its colours (io/photograph.h). `compression` is that of OpenEXR (compression.h). Throws
 // UsageError for a display with an OpenEXR file, and for a compression or tiles with any other. Returns what
 // write_flat_exr returns.
 std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,

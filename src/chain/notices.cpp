@@ -47,6 +47,8 @@ constexpr std::array table{
     Words{NoticeKind::no_colorconfig, warning,
           "{0}; EXR is taken as linear: correct $OCIO, or name a configuration by `{parameter}`"},
     Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
+    Words{NoticeKind::dropped_alpha, once,
+          "{file}: the format has no alpha, so the picture lies over black: PNG and TIFF keep its alpha"},
     Words{NoticeKind::converted, warning,
           "{file}: its colours are in another space than those of {0}, and are converted"},
     Words{NoticeKind::changed_data, warning,

@@ -31,6 +31,7 @@ enum class NoticeKind {
     unnamed_space,  // attribute
     no_colorconfig, // the reason
     displayed,
+    dropped_alpha,
     converted,    // the picture whose space the colours get
     changed_data, // the channel; `parameter` changes it
     // Views and LDIs.

@@ -1,6 +1,7 @@
 #include "io/photograph.h"
 
 #include "base/error.h"
+#include "io/display/icc_profile.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_channels.h"
 #include "io/exr/exr_deep_part.h"
@@ -9,6 +10,7 @@
 #include "io/files/file_stream.h"
 
 #include <ImfChromaticitiesAttribute.h>
+#include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -16,23 +18,51 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sparselens {
 
 namespace {
 
+constexpr const char *bits_name = "photograph:bits", *profile_name = "photograph:profile",
+                     *exif_name = "photograph:exif";
+
 // As a flat EXR would be read, with what it states about its colours.
-FlatFile read_shown(const std::string &path) {
-    bool floats = false;
-    FlatFile file;
-    file.image = read_shown_picture(path, &floats);
+struct Photograph : FlatFile {
+    int orientation = 1; // as stored
+};
+
+Photograph flat_file(ShownFile shown) {
+    Photograph file;
+    file.image = std::move(shown.image);
+    file.orientation = shown.orientation;
     const Windows &windows = file.image.windows;
     file.header = Imf::Header(windows.display, windows.data, windows.pixel_aspect);
-    if (floats || holds_linear_light(path))
+    if (shown.extras.bits == 32) {
         set_attribute(file.header, "chromaticities", Imf::ChromaticitiesAttribute(Imf::Chromaticities()));
-    else
-        set_attribute(file.header, "oiio:ColorSpace", Imf::StringAttribute("srgb_texture"));
+        return file;
+    }
+    set_attribute(file.header, "oiio:ColorSpace", Imf::StringAttribute("srgb_texture"));
+    set_attribute(file.header, bits_name, Imf::IntAttribute(shown.extras.bits));
+    const std::string &profile = shown.extras.profile;
+    if (is_rgb_profile(profile))
+        set_attribute(file.header, profile_name, Imf::StringAttribute(profile));
+    else if (!profile.empty())
+        file.warnings.emplace_back("its colour profile is not for R, G and B, and is left out");
+    if (const std::string &exif = shown.extras.exif; !exif.empty())
+        set_attribute(file.header, exif_name, Imf::StringAttribute(exif));
     return file;
+}
+
+// Turns a depth of the size of the picture's stored rows as these were turned.
+void turn_depth(FlatFile &depth, const std::string &name, Photograph &picture) {
+    const Windows &from = depth.image.windows, &to = picture.image.windows;
+    if (picture.orientation < 5 || from.width() != to.height() || from.height() != to.width() ||
+        from.width() == from.height())
+        return;
+    depth.image.channels.resize(1);
+    depth.image = turned(depth.image, picture.orientation);
+    picture.warnings.push_back("is turned by its Exif, and " + name + " is not: the depth is turned, too");
 }
 
 void require_grey(const Image &image, const std::string &name) {
@@ -51,11 +81,13 @@ void require_size(const Windows &depth, const std::string &name, const Windows &
     const auto size = [](const Windows &w) {
         return fmt::format("{}x{}", w.display_width(), w.display_height());
     };
-    if (size(depth) != size(picture))
-        throw Error(
-            fmt::format("{}: is {} pixels large, and {} is {}: give a depth of the same size (oiiotool {} "
-                        "--resize {} -o NEW)",
-                        name, size(depth), path, size(picture), name, size(picture)));
+    if (size(depth) == size(picture)) return;
+    const bool on_side = depth.display_width() == picture.display_height() &&
+                         depth.display_height() == picture.display_width();
+    throw Error(fmt::format("{}: is {} pixels large, and {} is {}: {} (oiiotool {} --{} -o NEW)", name,
+                            size(depth), path, size(picture),
+                            on_side ? "turn it" : "give a depth of the same size", name,
+                            on_side ? "rotate90, or --rotate270," : "resize " + size(picture)));
 }
 
 // Gives the windows the corner and the shape of the pixels of another frame of that size: only EXR files have a corner.
@@ -89,17 +121,35 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
                          ": is a picture without depth: give its depth by `depth_file` (grey, white near)");
     PictureChoice colours = choice;
     colours.depth_file.clear();
-    FlatFile picture = has_shown_ending(path) ? read_shown(path) : read_flat_exr(path, colours);
+    Photograph picture = has_shown_ending(path) ? flat_file(read_shown_picture(path))
+                                                : Photograph{read_flat_exr(path, colours)};
     const std::string &name = choice.depth_file;
     const bool shown = has_shown_ending(name);
-    FlatFile depth = shown ? read_shown(name) : read_depth_file(choice);
+    FlatFile depth = shown ? flat_file(read_shown_picture(name, true)) : read_depth_file(choice);
+    if (shown) require_grey(depth.image, name), turn_depth(depth, name, picture);
     require_size(depth.image.windows, name, picture.image.windows, display_name(path));
-    if (shown) require_grey(depth.image, name);
     move_frame(depth.image.windows, picture.image.windows);
     if (shown) depth.image = extended(depth.image, picture.image.windows.data);
     put_depth_of_file(picture, path, shown ? PictureChoice{.depth_file = name} : choice, depth);
     return {ldi_of_flat(picture.image, "Z"), picture.header, false, std::move(picture.notes),
             std::move(picture.warnings)};
+}
+
+std::optional<ShownExtras> extras_of(const Imf::Header &header) {
+    const auto *bits = header.findTypedAttribute<Imf::IntAttribute>(bits_name);
+    if (!bits) return {};
+    const auto bytes_of = [&](const char *name) {
+        const auto *bytes = header.findTypedAttribute<Imf::StringAttribute>(name);
+        return bytes ? bytes->value() : std::string();
+    };
+    return ShownExtras{bits->value(), bytes_of(profile_name), bytes_of(exif_name)};
+}
+
+Imf::Header without_extras(const Imf::Header &header) {
+    Imf::Header result = header;
+    for (const char *name : {bits_name, profile_name, exif_name})
+        if (header.find(name) != header.end()) result = without_attribute(result, name);
+    return result;
 }
 
 void repair_disparities(std::span<float> depths, const std::string &name,

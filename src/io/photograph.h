@@ -2,8 +2,10 @@
 #pragma once
 
 #include "../view/view.h"
+#include "display/shown_picture.h"
 #include "exr/exr_deep.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,9 +17,14 @@ bool is_photograph(const std::string &path, const PictureChoice &choice);
 
 // Reads the picture and its depth, which stays as it is in the file, integers as 0 to 1. The depth belongs to the
 // picture's display window; beyond it, that of an integer file goes on as at its border. Colours of integers are encoded
-// for a display, which the header states; floating-point ones are linear. Throws Error or UsageError, naming the file, if
-// it cannot be read, there is no depth, it has another size, or it has colours.
+// for a display, which the header states (see extras_of); floating-point ones are linear. Throws Error or UsageError,
+// naming the file, if it cannot be read, there is no depth, it has another size, or it has colours.
 LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
+
+// What the file of a photograph of integers holds beside its colours, from attributes of its header that EXR files do not
+// get. Empty for all other pictures.
+std::optional<ShownExtras> extras_of(const Imf::Header &header);
+Imf::Header without_extras(const Imf::Header &header);
 
 // Scales disparities of the picture to 0 to 1 unless they lie there, and says so in `warnings`; so it does if white
 // seems to be far. Throws Error, naming the picture, if all are the same.

@@ -80,8 +80,8 @@ py::object png_of(const PictureObject &picture) {
     if (!all_found(find_rgb(picture.image.channels))) return py::none();
     return py::bytes(job<std::string>(py::none(), [&](Progress &) {
         Image image = picture.image;
-        to_shown_colours({}, "picture.png", image, picture.header);
-        return shown_picture("Picture", "png", image);
+        const auto extras = to_shown_colours({}, "picture.png", image, picture.header);
+        return shown_picture("Picture", "png", image, *extras);
     }));
 }
 

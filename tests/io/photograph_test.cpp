@@ -4,11 +4,15 @@
 #include "io/photograph.h"
 #include "support/scratch_folder.h"
 
+#include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -105,6 +109,103 @@ TEST_F(Photograph, DepthOfAnotherSizeIsRefused) {
     const std::string picture = shown("picture.png"), small = shown("small.png", windows_of_size(8, 6));
     EXPECT_NE(what_of<Error>([&] { depths(picture, small); }).find("small.png: is 8x6 pixels large"),
               std::string::npos);
+}
+
+TEST_F(Photograph, DepthThatWasNotTurnedIsTurned) {
+    Image picture(windows_of_size(width, height), rgba_channels()), depth = picture;
+    for (std::size_t i = 0; i < depth.windows.pixels(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) depth.plane(k)[i] = float(i % 200) / 255;
+    std::ranges::fill(depth.plane(3), 1.0f);
+    std::ranges::fill(picture.plane(3), 1.0f);
+    const std::string exif("II*\0\x08\0\0\0\1\0\x12\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0", 26); // orientation 6
+    std::string bytes = shown_picture("a", "png", picture, {8, {}, exif});
+    bytes.replace(bytes.find("eXIf") + 4, exif.size(), exif); // whether or not a writer turns it
+    put_contents(folder.file("a.png"), bytes);
+    write_shown_picture(folder.file("depth.png"), depth);
+    const LdiFile read = read_photograph(folder.file("a.png"), {.depth_file = folder.file("depth.png")});
+    ASSERT_EQ(read.ldi.windows.width(), height);
+    EXPECT_EQ(read.ldi.z[0],
+              depth.at(0, 0, height - 1)); // the lower left corner is upright the upper left one
+    EXPECT_EQ(read.ldi.z[1], depth.at(0, 0, height - 2));
+    ASSERT_EQ(read.warnings.size(), 1u);
+    EXPECT_NE(read.warnings[0].find("the depth is turned, too"), std::string::npos);
+}
+
+// What JPEG does to grey is a rounding; more is a colour map.
+TEST_F(Photograph, DepthMustBeGrey) {
+    const std::string picture = shown("picture.png");
+    const auto of_colours = [&](float off) {
+        Image depth(windows_of_size(width, height), {{"R"}, {"G"}, {"B"}});
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (std::size_t k = 0; k < 3; ++k) depth.at(k, x, y) = disparity(x, y) + (k == 2 ? off : 0);
+        write_shown_picture(folder.file("depth.png"), depth);
+        return what_of<Error>([&] { depths(picture, folder.file("depth.png")); });
+    };
+    EXPECT_EQ(of_colours(0.02f), "(nothing was thrown)");
+    for (const float off : {0.05f, 0.2f})
+        EXPECT_NE(of_colours(off).find("depth.png: has colours, and depth must be grey"), std::string::npos)
+            << off;
+}
+
+// Colours are multiplied by A as in any picture; a depth is not.
+TEST_F(Photograph, AlphaIsKeptAndDarkensNoDepth) {
+    Image cut(windows_of_size(width, height), rgba_channels());
+    for (int x = 0; x < width; ++x)
+        for (int y = 0; y < height; ++y) {
+            const float a = float(x) / float(width - 1);
+            cut.at(3, x, y) = a;
+            for (std::size_t k = 0; k < 3; ++k) cut.at(k, x, y) = a * float(16 * y + 50) / 255;
+        }
+    for (const char *name : {"cut.png", "cut.tif", "cut.tga"}) {
+        SCOPED_TRACE(name);
+        const std::string file = folder.file(name);
+        write_shown_picture(file, cut);
+        const LdiFile read = read_photograph(file, {.depth_file = file});
+        const std::size_t alpha = find_channel(read.ldi.channels, "A");
+        ASSERT_NE(alpha, npos);
+        for (int y = 0; y < height; ++y)
+            for (int x = 1; x < width; ++x) {
+                const std::size_t i = cut.windows.index(x, y);
+                ASSERT_NEAR(read.ldi.values[alpha][i], cut.at(3, x, y), 0.003);
+                ASSERT_NEAR(read.ldi.values[0][i], cut.at(0, x, y), 0.006);
+                ASSERT_NEAR(read.ldi.z[i], float(16 * y + 50) / 255, 0.02) << x;
+            }
+    }
+    write_shown_picture(folder.file("opaque.png"), Image(cut.windows, {{"R"}, {"G"}, {"B"}}));
+    const LdiFile opaque = read_photograph(folder.file("opaque.png"), {.depth_file = folder.file("cut.png")});
+    EXPECT_EQ(find_channel(opaque.ldi.channels, "A"), npos);
+}
+
+TEST_F(Photograph, FloatingPointColoursAreLinear) {
+    const std::string depth = shown("depth.png");
+    for (const char *name : {"a.hdr", "a.pfm", "a.png"}) {
+        if (std::string(name) == "a.pfm")
+            put_contents(folder.file(name), "PF\n16 12\n-1.0\n" + std::string(16 * 12 * 12, '\0'));
+        else
+            shown(name);
+        const Imf::Header header = read_photograph(folder.file(name), {.depth_file = depth}).header;
+        EXPECT_EQ(Imf::hasChromaticities(header), std::string(name) != "a.png") << name;
+        EXPECT_EQ(extras_of(header).has_value(), std::string(name) == "a.png") << name;
+    }
+}
+
+TEST_F(Photograph, FlatPicturesMayBeLarge) {
+    write_shown_picture(folder.file("flat.png"), Image(windows_of_size(4000, 2500), {{"R"}, {"G"}, {"B"}}));
+    EXPECT_EQ(read_shown_picture(folder.file("flat.png")).image.windows.width(), 4000);
+}
+
+// A part of a file is no picture. The last bytes of a file may say nothing about its pixels.
+TEST_F(Photograph, HalfAFileIsRefused) {
+    for (const char *name : {"a.jpg", "a.png", "a.tif", "a.webp", "a.bmp"}) {
+        const std::string whole = contents_of(shown(name, windows_of_size(60, 40)));
+        for (const double part : {0.2, 0.5, 0.9}) {
+            put_contents(folder.file(name), whole.substr(0, std::size_t(part * double(whole.size()))));
+            EXPECT_NE(what_of<Error>([&] { read_shown_picture(folder.file(name)); }).find("cannot read: "),
+                      std::string::npos)
+                << name << ' ' << part;
+        }
+    }
 }
 
 } // namespace

@@ -36,7 +36,9 @@ fails_saying 1 'view.png: is a PNG picture' "$bin/dof-gather" one.exr -o x.exr -
     --focus-distance 3 --aperture view.png
 fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --lens-radius 0 <view.png' - "$bin/dof-gather"
 printf 'P6 2 2 255 abcdefghijkl' >view.ppm
-fails_saying 1 'view.ppm: not an EXR file' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
+fails_saying 2 'view.ppm: is a picture without depth' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
+cp view.ppm view.txt
+fails_saying 1 'view.txt: not an EXR file; a photograph' "$bin/dof-gather" view.txt -o x.exr "${flat[@]}"
 
 # The name of a channel says what it holds. --data and --light overrule the name, and the output keeps what they said.
 oiiotool --pattern noise:type=uniform:min=-9:max=9 24x16 3 --chnames secret.R,secret.G,secret.B -d float -o secret.exr

@@ -150,6 +150,33 @@ void ColourTransform::apply(std::span<float> r, std::span<float> g, std::span<fl
     });
 }
 
+ColourTransform ColourTransform::of(const CurvesAndMatrix &made, bool inverse) {
+    const auto lines = ocio::Lut1DTransform::Create(made.curves[0].size(), false);
+    lines->setInterpolation(ocio::INTERP_LINEAR);
+    for (unsigned long i = 0; i < made.curves[0].size(); ++i)
+        lines->setValue(i, made.curves[0][i], made.curves[1][i], made.curves[2][i]);
+    const auto matrix = ocio::MatrixTransform::Create();
+    std::array<double, 16> rows{};
+    rows[15] = 1;
+    for (std::size_t to = 0; to < 3; ++to)
+        for (std::size_t from = 0; from < 3; ++from) rows[4 * to + from] = made.matrix[int(from)][int(to)];
+    matrix->setMatrix(rows.data());
+    const auto both = ocio::GroupTransform::Create();
+    both->appendTransform(lines);
+    both->appendTransform(matrix);
+    const auto direction = inverse ? ocio::TRANSFORM_DIR_INVERSE : ocio::TRANSFORM_DIR_FORWARD;
+    const auto processor = ocio::Config::CreateRaw()->getProcessor(both, direction);
+    ColourTransform transform; // the faster inverse of curves is coarse
+    transform.processor_ = std::make_shared<const Processor>(
+        Processor{processor->getOptimizedCPUProcessor(ocio::OPTIMIZATION_LOSSLESS)});
+    return transform;
+}
+
+ColourConfig ColourConfig::built_in() {
+    return ColourConfig(
+        std::make_shared<const Impl>(Impl{"the built-in colour configuration", config_of({})}));
+}
+
 ColourConfig::ColourConfig(const std::string &file) {
     const char *variable = std::getenv("OCIO");
     const std::string path = !file.empty() ? file : variable ? variable : "";

@@ -6,20 +6,31 @@
 
 #include "../../base/image.h"
 
+#include <Imath/ImathMatrix.h>
 #include <ImfChromaticities.h>
 #include <ImfHeader.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
 
+// Curves of R, G and B, each with its values at equal steps from 0 to 1, and then a matrix (row vectors).
+struct CurvesAndMatrix {
+    std::array<std::vector<float>, 3> curves; // of one length, rising
+    Imath::M33d matrix;
+};
+
 // From one colour space to another. Immutable; any number of threads may use it.
 class ColourTransform {
 public:
+    static ColourTransform of(const CurvesAndMatrix &made, bool inverse);
+
     // Transforms premultiplied colours: divides them by their coverage, transforms them and multiplies them again.
     // Colours without coverage (`a` is null or 0) are transformed as they are.
     void apply(std::span<float> r, std::span<float> g, std::span<float> b, const float *a) const;
@@ -35,6 +46,7 @@ class ColourConfig {
 public:
     // Reads the file; if it is empty, the one that $OCIO names; if that is unset, share/ocio/config.ocio.
     explicit ColourConfig(const std::string &file = {});
+    static ColourConfig built_in(); // share/ocio/config.ocio
 
     std::string scene_linear() const;                         // the space in which all work is done
     std::string space_of_file(const std::string &path) const; // by the file rules
@@ -57,6 +69,7 @@ public:
 
 private:
     struct Impl;
+    explicit ColourConfig(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
     std::shared_ptr<const Impl> impl_;
 };
 

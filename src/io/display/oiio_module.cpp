@@ -1,11 +1,22 @@
 #include "io/display/oiio_module.h"
 
+#include "io/display/png_jpeg.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+// Of tiffutils.h, which needs the headers of libtiff.
+OIIO_NAMESPACE_BEGIN
+OIIO_API bool decode_exif(string_view exif, ImageSpec &spec);
+OIIO_API void encode_exif(const ImageSpec &spec, std::vector<char> &blob, endian order);
+OIIO_NAMESPACE_END
 
 namespace sparselens {
 
@@ -19,13 +30,36 @@ OiioModule::Support support(const char *extension) {
                                                                        : OiioModule::Support::opaque;
 }
 
+bool reads(const char *extension) {
+    constexpr std::array<std::string_view, 4> no_pictures{"openexr", "FFmpeg movie", "null", "openvdb"};
+    const auto file = OIIO::ImageInput::create(extension);
+    return file && std::ranges::find(no_pictures, file->format_name()) == no_pictures.end();
+}
+
+OIIO::TypeDesc bytes_type(const OiioBytes &of) { return {OIIO::TypeDesc::UINT8, int(of.size)}; }
+
+// What the file says beside its pixels.
+void add_exif(OIIO::ImageSpec &spec, const OiioBytes &exif) {
+    if (exif.size == 0) return;
+    OIIO::decode_exif({static_cast<const char *>(exif.bytes), exif.size}, spec);
+    spec.erase_attribute("oiio:ColorSpace");
+    spec.attribute("Orientation", 1);
+    for (const auto &[name, size] : {std::pair("X", spec.width), std::pair("Y", spec.height)})
+        spec.attribute(std::string("Exif:Pixel") + name + "Dimension", size);
+}
+
 bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
     OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
                          picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    add_exif(spec, picture.exif);
+    if (picture.profile.size > 0)
+        spec.attribute("ICCProfile", bytes_type(picture.profile), picture.profile.bytes);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("PixelAspectRatio", picture.pixel_aspect);
     OIIO::Filesystem::IOVecOutput memory;
-    if (file.supports("ioproxy")) file.set_ioproxy(&memory);
+    const bool to_file =
+        picture.exif.size > 0 && file.format_name() == std::string("tiff"); // it reads what it wrote
+    if (file.supports("ioproxy") && !to_file) file.set_ioproxy(&memory);
     if (!file.open(picture.path, spec)) return false;
     for (int y = 0; y < picture.height; ++y)
         if (!file.write_scanline(y, 0, OIIO::TypeDesc::FLOAT, picture.row(picture.source, y))) return false;
@@ -35,6 +69,9 @@ bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
 }
 
 const char *write(const OiioPicture &picture) {
+    // OpenImageIO writes Exif to PNG as texts.
+    if (picture.exif.size + picture.profile.size > 0 && picture.format == std::string("png"))
+        return failure_of([&] { png::write(picture); });
     thread_local std::string why;
     const auto file = OIIO::ImageOutput::create(picture.format);
     // libjpeg would end the process.
@@ -45,39 +82,78 @@ const char *write(const OiioPicture &picture) {
     return why.c_str();
 }
 
-// Turns a plane of the file as its attribute Orientation says.
-void turn(float *plane, const OIIO::ImageSpec &spec, int orientation) {
-    const std::vector<float> stored(plane, plane + std::ptrdiff_t(spec.width) * spec.height);
-    const float *from = stored.data();
-    for (int y = 0; y < spec.height; ++y)
-        for (int x = 0; x < spec.width; ++x)
-            plane[upright(x, y, spec.width, spec.height, orientation)] = *from++;
+// OpenImageIO passes neither Exif nor the profile of WebP on.
+void describe_webp(const char *path, PictureFile &to) {
+    const FilePointer file = opened(path);
+    to.exif = chunk_of(file.get(), "EXIF", true);
+    to.profile = chunk_of(file.get(), "ICCP", true);
+    to.said.orientation = take_orientation(to.exif);
 }
 
-const char *read(const char *path, OiioSize &size, float *values) {
-    thread_local std::string why;
-    const auto file = OIIO::ImageInput::open(path);
-    if (!file) return (why = OIIO::geterror()).c_str();
-    const OIIO::ImageSpec &spec = file->spec();
-    const int turned = spec.get_int_attribute("Orientation", 1);
-    const bool on_side = turned > 4; // rows and columns change places
-    const int width = on_side ? spec.height : spec.width, height = on_side ? spec.width : spec.height;
-    const bool floats = spec.format.is_floating_point();
-    if (!values) size = {width, height, spec.get_float_attribute("PixelAspectRatio", 1), floats};
-    if (width != size.width || height != size.height) return "it has changed";
-    const bool is_grey = spec.nchannels < 3;
-    for (int k = 0; values && k < 3; ++k) {
-        const int from = is_grey ? 0 : k;
-        float *plane = values + std::ptrdiff_t(k) * size.width * size.height;
-        if (!file->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT, plane))
-            return (why = file->geterror()).c_str();
-        if (turned > 1) turn(plane, spec, turned);
+// Returns whether the colours are multiplied by alpha.
+bool describe(const OIIO::ImageInput &file, const char *path, PictureFile &to) {
+    OIIO::ImageSpec spec = file.spec();
+    to.said.orientation = spec.get_int_attribute("Orientation", 1);
+    if (const OIIO::ParamValue *profile = spec.find_attribute("ICCProfile"))
+        to.profile.assign(static_cast<const char *>(profile->data()), profile->type().size());
+    spec.erase_attribute("Orientation");
+    std::vector<char> exif;
+    if (spec.find_attribute("Make") || spec.find_attribute("DateTime") || spec.find_attribute("Artist") ||
+        spec.find_attribute("Copyright") || spec.find_attribute("Exif:DateTimeOriginal"))
+        OIIO::encode_exif(spec, exif, OIIO::endian::little);
+    to.exif.assign(exif.begin(), exif.end());
+    if (file.format_name() == std::string("webp")) describe_webp(path, to);
+    to.set_stored_size(spec.width, spec.height);
+    to.said.pixel_aspect = spec.get_float_attribute("PixelAspectRatio", 1);
+    to.said.bits = spec.format.is_floating_point() ? 32 : spec.format.size() > 1 ? 16 : 8;
+    to.said.alpha = spec.alpha_channel == (spec.nchannels < 3 ? 1 : 3);
+    return to.said.alpha && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+void divide(std::vector<float> &pixels, int channels) {
+    const std::size_t step = std::size_t(channels), a = channels < 3 ? 1 : 3;
+    for (std::size_t at = 0; at < pixels.size(); at += step)
+        for (std::size_t k = 0; k < a; ++k)
+            if (pixels[at + a] > 0) pixels[at + k] /= pixels[at + a];
+}
+
+// All channels at once: some files come out wrong one channel after the other.
+void read_pixels(OIIO::ImageInput &file, bool multiplied, const PictureFile &to) {
+    const OIIO::ImageSpec &spec = file.spec();
+    const int rows = spec.tile_width > 0 ? spec.tile_height : 64, channels = spec.nchannels;
+    std::vector<float> pixels(std::size_t(spec.width) * std::size_t(rows) * std::size_t(channels));
+    for (int y = 0; y < spec.height; y += rows) {
+        const int from = spec.y + y, end = spec.y + std::min(y + rows, spec.height);
+        const bool done = spec.tile_width > 0
+                              ? file.read_tiles(0, 0, spec.x, spec.x + spec.width, from, end, spec.z,
+                                                spec.z + 1, 0, channels, OIIO::TypeDesc::FLOAT, pixels.data())
+                              : file.read_scanlines(0, 0, from, end, spec.z, 0, channels,
+                                                    OIIO::TypeDesc::FLOAT, pixels.data());
+        if (!done) throw std::runtime_error(file.geterror());
+        if (multiplied) divide(pixels, channels);
+        for (int row = from; row < end; ++row)
+            to.put_row(row - spec.y,
+                       &pixels[std::size_t(row - from) * std::size_t(spec.width) * std::size_t(channels)],
+                       channels);
     }
-    return nullptr;
+}
+
+const char *read(const char *path, OiioFile &file, float *values) {
+    return failure_of([&] {
+        read_into(file, values, [&](PictureFile &to) {
+            if (read_png_or_jpeg(path, to)) return;
+            OIIO::ImageSpec as_stored;
+            as_stored.attribute("oiio:UnassociatedAlpha", 1);
+            const auto picture = OIIO::ImageInput::open(path, &as_stored);
+            if (!picture) throw std::runtime_error(OIIO::geterror());
+            const bool multiplied = describe(*picture, path, to);
+            if (to.wants_pixels()) read_pixels(*picture, multiplied, to);
+        });
+    });
 }
 
 } // namespace
 
-extern "C" OiioModule sparselens_oiio_module() { return {support, write, read}; }
+extern "C" OiioModule sparselens_oiio_module() { return {support, reads, write, read}; }
 
 } // namespace sparselens

@@ -10,6 +10,12 @@
 
 namespace sparselens {
 
+// What a file may hold beside its pixels; those that a module returns are valid until the thread calls again.
+struct OiioBytes {
+    const void *bytes;
+    std::size_t size; // 0: none
+};
+
 struct OiioPicture {
     const char *format; // its extension (png, without the dot)
     const char *path; // of a file for the formats that are written only to files; it need not end in `format`
@@ -17,29 +23,37 @@ struct OiioPicture {
     const float *(*row)(void *source, int y); // row y from the top: pixel by pixel, channels together
     int width, height;
     int channels;       // 3, or 4 with unassociated alpha
-    int bits;           // 8 or 16
+    int bits;           // 8, or 16 if the format has them
     float pixel_aspect; // width over height
+    OiioBytes profile;  // ICC, for R, G and B
+    OiioBytes exif;     // as a TIFF structure
     // Takes the bytes of the other formats, piece by piece: where a file cannot grow, libpng's is cut off in silence, and
     // libjpeg ends the process.
     void (*put)(void *bytes, const void *piece, std::size_t count);
     void *bytes;
 };
 
-struct OiioSize {
-    int width, height;
+struct OiioFile {
+    int width, height; // upright
+    int orientation;   // by which its rows are turned upright, the attribute of Exif, 1 to 8
     float pixel_aspect;
-    bool floats; // whether its values are floating-point numbers
+    int bits;   // 8 or 16; 32: floating-point numbers
+    bool alpha; // whether there is a fourth channel
+    OiioBytes profile, exif;
 };
 
 struct OiioModule {
     enum class Support { none, opaque, alpha };
 
-    // What the format with this extension (png, without the dot) supports.
+    // What the format with this extension (png, without the dot) supports when it is written.
     Support (*support)(const char *extension);
+    // Whether it is the extension of a picture that can be read, other than EXR.
+    bool (*reads)(const char *extension);
     // Returns null, or a message that is valid until the thread calls again.
     const char *(*write)(const OiioPicture &picture);
-    // Reads R, G and B of a file of this size, plane after plane, turned as a camera says; its size if `values` is null.
-    const char *(*read)(const char *path, OiioSize &size, float *values);
+    // Describes a file if `values` is null. Otherwise reads R, G and B, and A if it has alpha, plane after plane, turned
+    // upright. The colours are not multiplied by A.
+    const char *(*read)(const char *path, OiioFile &file, float *values);
 };
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <system_error>
 #include <vector>
@@ -78,6 +79,10 @@ void append(void *bytes, const void *piece, std::size_t count) {
     static_cast<std::string *>(bytes)->append(static_cast<const char *>(piece), count);
 }
 
+bool is_open(const Image &image, std::size_t alpha) {
+    return std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
+}
+
 // R, G and B, and A if it is below 1 anywhere.
 std::vector<std::size_t> channels_of(const std::string &name, const Image &image, bool may_have_alpha) {
     const auto rgb = find_rgb(image.channels);
@@ -85,9 +90,7 @@ std::vector<std::size_t> channels_of(const std::string &name, const Image &image
         throw Error(name + ": needs the channels R, G and B: write other channels to an EXR file");
     std::vector<std::size_t> channels(rgb.begin(), rgb.end());
     const std::size_t alpha = find_channel(image.channels, "A");
-    if (alpha != npos && may_have_alpha &&
-        std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; }))
-        channels.push_back(alpha);
+    if (alpha != npos && may_have_alpha && is_open(image, alpha)) channels.push_back(alpha);
     return channels;
 }
 
@@ -112,13 +115,15 @@ bool holds_linear_light(const std::string &path) {
     return is_among(formats, extension_of(path));
 }
 
-void drop_unwritten_coverage(const std::string &path, Image &image) {
+bool drop_unwritten_coverage(const std::string &path, Image &image) {
     const std::size_t alpha = find_channel(image.channels, "A");
     if (alpha == npos || oiio_module().support(extension_of(path).c_str()) == OiioModule::Support::alpha)
-        return;
+        return false;
+    const bool open = is_open(image, alpha);
     const auto plane = image.values.begin() + std::ptrdiff_t(alpha * image.windows.pixels());
     image.values.erase(plane, plane + std::ptrdiff_t(image.windows.pixels()));
     image.channels.erase(image.channels.begin() + std::ptrdiff_t(alpha));
+    return open;
 }
 
 ShownPixels shown_pixels(const std::string &name, const Image &image) {
@@ -135,19 +140,21 @@ ShownPixels shown_pixels(const std::string &name, const Image &image) {
     return out;
 }
 
-std::string shown_picture(const std::string &name, const std::string &format, const Image &image) {
+std::string shown_picture(const std::string &name, const std::string &format, const Image &image,
+                          const ShownExtras &extras) {
     const OiioModule &oiio = oiio_module();
     const std::vector<std::size_t> channels =
         channels_of(name, image, oiio.support(format.c_str()) == OiioModule::Support::alpha);
     check_size(name, image);
     DisplayRows rows(image, channels, channels.size() > 3);
-    const bool deep_bits = format.starts_with("tif") || format == "dpx";
+    const bool deep_bits = format.starts_with("tif") || format == "dpx" || extras.bits == 16;
+    const auto bytes_of = [](const std::string &of) { return OiioBytes{of.data(), of.size()}; };
     const MemoryFile file;
     std::string bytes;
-    const char *failed =
-        oiio.write({format.c_str(), file.path().c_str(), &rows, row_of, image.windows.display_width(),
-                    image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
-                    image.windows.pixel_aspect, append, &bytes});
+    const char *failed = oiio.write({format.c_str(), file.path().c_str(), &rows, row_of,
+                                     image.windows.display_width(), image.windows.display_height(),
+                                     int(channels.size()), deep_bits ? 16 : 8, image.windows.pixel_aspect,
+                                     bytes_of(extras.profile), bytes_of(extras.exif), append, &bytes});
     if (failed) throw Error(name + ": cannot write: " + failed);
     if (!bytes.empty()) return bytes;
     // What writes to the file may not see that it is cut off. Encoded worse than not at all, it is twice as large.
@@ -157,29 +164,66 @@ std::string shown_picture(const std::string &name, const std::string &format, co
     return read_bytes(file.path());
 }
 
-void write_shown_picture(const std::string &path, const Image &image) {
-    write_text_file(path, shown_picture(path, extension_of(path), image));
+void write_shown_picture(const std::string &path, const Image &image, const ShownExtras &extras) {
+    write_text_file(path, shown_picture(path, extension_of(path), image, extras));
 }
 
 bool has_shown_ending(const std::string &path) {
     const std::string extension = extension_of(path);
+    if (extension.empty() || extension == "exr") return false;
     return extension == "pfm" ||
-           std::ranges::any_of(usual, [&](const char *ending) { return ending + 1 == extension; });
+           std::ranges::any_of(usual, [&](const char *ending) { return ending + 1 == extension; }) ||
+           oiio_module().reads(extension.c_str());
 }
 
-Image read_shown_picture(const std::string &path, bool *floats) {
-    OiioSize size{};
+namespace {
+
+// Multiplies the colours by A, or drops A if it says nothing or is not wanted.
+void settle_alpha(Image &image, bool without) {
+    const std::size_t alpha = find_channel(image.channels, "A");
+    if (alpha == npos) return;
+    if (!without && is_open(image, alpha))
+        for (std::size_t k = 0; k < 3; ++k)
+            std::ranges::transform(image.plane(k), image.plane(alpha), image.plane(k).begin(),
+                                   std::multiplies());
+    else
+        image.channels.pop_back(), image.values.resize(3 * image.windows.pixels());
+}
+
+} // namespace
+
+ShownFile read_shown_picture(const std::string &path, bool without_alpha) {
+    OiioFile said{};
     const auto read = [&](float *to) {
-        if (const char *failed = oiio_module().read(path.c_str(), size, to))
+        if (const char *failed = oiio_module().read(path.c_str(), said, to))
             throw Error(path + ": cannot read: " + failed);
     };
     read(nullptr);
-    check_memory(path, 12.0 * size.width * size.height, std::filesystem::file_size(path));
-    Image image(windows_of_size(size.width, size.height), {{"R"}, {"G"}, {"B"}});
-    image.windows.pixel_aspect = size.pixel_aspect;
-    read(image.values.data());
-    if (floats) *floats = size.floats;
-    return image;
+    // A flat picture of a few bytes may be large: 1.1 GB are no danger.
+    constexpr std::uint64_t harmless = 1'000'000; // bytes of a file
+    check_memory(path, (said.alpha ? 16.0 : 12.0) * said.width * said.height,
+                 std::max<std::uint64_t>(std::filesystem::file_size(path), harmless));
+    ShownFile file{
+        Image(windows_of_size(said.width, said.height), {{"R"}, {"G"}, {"B"}}), {}, said.orientation};
+    if (said.alpha) file.image = Image(file.image.windows, rgba_channels());
+    file.image.windows.pixel_aspect = said.pixel_aspect;
+    read(file.image.values.data());
+    const auto text_of = [](const OiioBytes &of) {
+        return of.size > 0 ? std::string(static_cast<const char *>(of.bytes), of.size) : std::string();
+    };
+    file.extras = {said.bits, text_of(said.profile), text_of(said.exif)};
+    settle_alpha(file.image, without_alpha);
+    return file;
+}
+
+Image turned(const Image &plane, int orientation) {
+    const int width = plane.windows.width(), height = plane.windows.height();
+    Image result(orientation > 4 ? windows_of_size(height, width) : windows_of_size(width, height),
+                 plane.channels);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            result.values[upright(x, y, width, height, orientation)] = plane.at(0, x, y);
+    return result;
 }
 
 namespace {

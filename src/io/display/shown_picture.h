@@ -15,15 +15,23 @@ bool is_shown_picture(const std::string &path);
 // Whether the format holds linear light, as Radiance's .hdr does, and not colours for a display.
 bool holds_linear_light(const std::string &path);
 
-// Drops A if the format has none, before colours are encoded: the picture is then that over black.
-void drop_unwritten_coverage(const std::string &path, Image &image);
+// Drops A if the format has none, before colours are encoded: the picture is then that over black. Returns whether A
+// was below 1 anywhere.
+bool drop_unwritten_coverage(const std::string &path, Image &image);
+
+// What a file holds beside its colours.
+struct ShownExtras {
+    int bits = 8;                        // of each value: 8 or 16; 32: floating-point numbers
+    std::string profile = {}, exif = {}; // ICC, for R, G and B; Exif, without its orientation
+};
 
 // The bytes of a file of that format (an extension, without the dot): R, G and B (display values, premultiplied) of the
-// display window, black outside the data window, with 8 bits, or 16 in TIFF and DPX. 0 and less become 0, 1 and more
-// the largest value, NaN becomes 0. If A is below 1 anywhere and the format has alpha, A is written too and the colours
-// are unpremultiplied. Any number of threads may call it at the same time. Throws Error, beginning with `name`, if R, G
-// or B is missing or OpenImageIO fails.
-std::string shown_picture(const std::string &name, const std::string &format, const Image &image);
+// display window, black outside the data window, with 8 bits, or 16 in TIFF, in DPX, and where `extras` says so and the
+// format has them. 0 and less become 0, 1 and more the largest value, NaN becomes 0. If A is below 1 anywhere and the
+// format has alpha, A is written too and the colours are unpremultiplied. Any number of threads may call it at the same
+// time. Throws Error, beginning with `name`, if R, G or B is missing or OpenImageIO fails.
+std::string shown_picture(const std::string &name, const std::string &format, const Image &image,
+                          const ShownExtras &extras = {});
 
 // The pixels of such a file of 8 bits that may have alpha (PNG), before encoding: 3 or 4 values each, by rows.
 struct ShownPixels {
@@ -33,14 +41,24 @@ struct ShownPixels {
 ShownPixels shown_pixels(const std::string &name, const Image &image);
 
 // Writes the same as a file; its extension selects the format. The output is atomic (see OutputFile).
-void write_shown_picture(const std::string &path, const Image &image);
+void write_shown_picture(const std::string &path, const Image &image, const ShownExtras &extras = {});
 
-// Whether the extension is a usual one of such a format; OpenImageIO is not loaded.
+// Whether the extension is that of a picture that can be read, other than EXR. OpenImageIO is loaded only for unusual
+// ones.
 bool has_shown_ending(const std::string &path);
 
-// Reads such a file as R, G and B, as encoded there; `floats`: whether they are floating-point numbers. Throws Error,
-// beginning with `path`.
-Image read_shown_picture(const std::string &path, bool *floats = nullptr);
+struct ShownFile {
+    Image image; // upright
+    ShownExtras extras;
+    int orientation; // by which its rows were turned upright, 1 to 8 (Exif)
+};
+
+// Reads such a file: R, G and B, as encoded there, and A if it is below 1 anywhere. The colours are multiplied by A,
+// unless `without_alpha` leaves it out. Throws Error, beginning with `path`.
+ShownFile read_shown_picture(const std::string &path, bool without_alpha = false);
+
+// Turns a picture of one channel by that orientation, as its file would have been.
+Image turned(const Image &plane, int orientation);
 
 // The names under which pictures may be written. The ending selects the format. A wrong ending is an error, reported
 // before any work is done.

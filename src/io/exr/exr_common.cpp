@@ -35,7 +35,7 @@ bool describes_storage(const std::string &name) {
                                           "oiio:ConstantColor", // of textures
                                           "textureformat", "wrapmodes"};
     return is_among(names, name) || is_among(of_pixels, name) || name == kept_names_attribute ||
-           name == "BlenderMultiChannel";
+           name == "BlenderMultiChannel" || name.starts_with("photograph:"); // io/photograph.h
 }
 
 } // namespace

@@ -392,7 +392,8 @@ std::string not_exr(std::string_view first_bytes) {
                 "is {} picture, and EXR is needed: render to EXR, with depth, or convert what needs "
                 "no depth (oiiotool IN -o OUT.exr)",
                 format.name);
-    return "not an EXR file";
+    if (first_bytes.starts_with("\x93NUMPY")) return "is a NumPy array: save it as a 16-bit PNG, white near";
+    return "not an EXR file; a photograph or its depth may be a PNG, JPEG or TIFF (oiiotool IN -o OUT.png)";
 }
 
 } // namespace sparselens

@@ -101,7 +101,7 @@ void make_folder(const std::string &path);
 [[noreturn]] void fail_of_system(const std::string &path, const std::string &what);
 
 // The error message for a file that is not an EXR file. Judges by its first 8 bytes or more: names the usual picture
-// format that the file has, and what to do; otherwise "not an EXR file".
+// format that the file has, and what to do; otherwise what a photograph may be.
 std::string not_exr(std::string_view first_bytes);
 
 } // namespace sparselens

@@ -211,8 +211,9 @@ TEST_F(FileStream, ErrorsNameTheFileAndTheReason) {
     const std::string nowhere = folder.file("missing/out.exr");
     EXPECT_EQ(what_of<Error>([&] { open_input(nowhere); }),
               nowhere + ": cannot open: No such file or directory");
-    EXPECT_EQ(what_of<Error>([&] { open_input("/dev/zero"); }),
-              "/dev/zero: not an EXR file"); // it never ends
+    EXPECT_TRUE(what_of<Error>([&] {
+                    open_input("/dev/zero");
+                }).starts_with("/dev/zero: not an EXR file")); // endless
     EXPECT_EQ(what_of<Error>([&] { open_input(folder.file("")); }),
               folder.file("") + ": is a folder, not a file");
     EXPECT_EQ(what_of<Error>([&] { OutputFile file(folder.file("")); }),
