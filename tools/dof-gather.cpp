@@ -59,7 +59,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache,
 } // namespace
 
 int main(int argc, char **argv) {
-    LdiCache cache; // frames of one file share its LDI, so that a focus pull over one file reads it once
+    LdiCache cache(true); // frames of one file share its LDI: a focus pull over one file reads it once
     GatherDevice device;
     return run_frames(
         "dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)", argc, argv,

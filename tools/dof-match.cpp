@@ -67,7 +67,7 @@ public:
 private:
     const MatchCommand &options_;
     const ToolContext &tool_;
-    LdiCache cache_;
+    LdiCache cache_{true};
 };
 
 // The shape of the lens, from the first frame that tells it.

@@ -227,7 +227,8 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Notify &notify, const
     const auto read = [&](const Key &) {
         read_now_ = true;
         notify({NoticeKind::reading, path});
-        OpenedLdi opened = open_ldi(path, {lens, request.depth}, choose);
+        OpenedLdi opened = open_ldi(path, {lens, request.depth, {}, disparities_}, choose);
+        if (of_sequence_) disparities_ = opened.disparities;
         notify_samples(notify, opened);
         recolor_by(recolor, request.depth.picture, colour, opened, notify);
         if (recolor.empty()) opened.header = to_linear(notify, colour, path, opened.header, opened.ldi);

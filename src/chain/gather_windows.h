@@ -95,6 +95,9 @@ struct LdiRequest {
 
 class LdiCache {
 public:
+    // `of_sequence`: the disparities of all photographs are scaled as those of the first.
+    explicit LdiCache(bool of_sequence = false) : of_sequence_(of_sequence) {}
+
     // Opens, recolours and makes linear the requested file, if the last file was another, was read with other options,
     // or has been used up since. Channels that are not requested are left out. The camera is that of the file alone,
     // without `lens`. Earlier results become invalid.
@@ -112,6 +115,8 @@ private:
     bool read_now_ = false;
     std::vector<std::string> channels_left_out_;
     Flicker flicker_;
+    bool of_sequence_;
+    std::optional<DisparityRange> disparities_; // of its first photograph
 };
 
 } // namespace sparselens

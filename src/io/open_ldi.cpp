@@ -178,7 +178,8 @@ OpenedLdi prepare_ldi(LdiFile file, const std::string &path, const OpenOptions &
     if (warning) opened.warnings.push_back(*warning);
     if (!deep) opened.unpremultiplied = seems_unpremultiplied(opened.ldi, options.depth.picture);
     if (options.depth.meaning == DepthMeaning::disparity)
-        repair_disparities(opened.ldi.z, opened.name, opened.warnings);
+        repair_disparities(opened.ldi.z, opened.name, opened.warnings,
+                           opened.disparities = options.disparities);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {

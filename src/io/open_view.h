@@ -33,10 +33,16 @@ struct DepthOptions {
     bool operator==(const DepthOptions &) const = default;
 };
 
+// The disparities that become 0 and 1.
+struct DisparityRange {
+    double least = 0, most = 1;
+};
+
 struct OpenOptions {
     LensValues lens = {}; // empty values come from the file
     DepthOptions depth = {};
-    std::optional<FilmCamera> camera = {}; // instead of the camera of the file
+    std::optional<FilmCamera> camera = {};          // instead of the camera of the file
+    std::optional<DisparityRange> disparities = {}; // of a photograph (repair_disparities); empty: its own
 };
 
 // The planes that the depths of a file refer to: `near` and `far` of the user, otherwise those of its header.
@@ -72,6 +78,7 @@ struct OpenedFile {
     bool unpremultiplied = false; // whether its colours seem to be so
     double flicker =
         0; // of a photograph, since the frame before (deep/checks/flicker.h); 0: none, or unknown
+    std::optional<DisparityRange> disparities = {}; // by which those of a photograph were scaled
 };
 
 struct OpenedView : OpenedFile {

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace sparselens {
@@ -152,30 +151,59 @@ Imf::Header without_extras(const Imf::Header &header) {
     return result;
 }
 
-void repair_disparities(std::span<float> depths, const std::string &name,
-                        std::vector<std::string> &warnings) {
-    float least = std::numeric_limits<float>::infinity(), most = -least;
+namespace {
+
+// The mean of those that are numbers.
+double mean_of(std::span<const float> depths) {
+    double sum = 0, count = 0;
     for (const float d : depths)
-        if (std::isfinite(d)) least = std::min(least, d), most = std::max(most, d);
-    if (!(most > least))
+        if (std::isfinite(d)) sum += double(d), ++count;
+    return count > 0 ? sum / count : 0;
+}
+
+std::optional<DisparityRange> range_of(std::span<const float> depths) {
+    DisparityRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const float d : depths)
+        if (std::isfinite(d)) range = {std::min(range.least, double(d)), std::max(range.most, double(d))};
+    if (range.most > range.least) return range;
+    return {};
+}
+
+} // namespace
+
+void repair_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings,
+                        std::optional<DisparityRange> &range) {
+    const std::optional<DisparityRange> own = range_of(depths);
+    if (!own)
         throw Error(name +
                     ": its depth is the same everywhere, so that nothing can be out of focus: give another "
                     "`depth_file`");
-    if (least < 0 || most > 1) {
+    const double size = own->most - own->least;
+    constexpr double little =
+        0.25; // of the range from 0 to 1: the blur is far from the one that was asked for
+    if (!range && (own->least < 0 || own->most > 1)) {
+        range = own;
         warnings.push_back(
-            fmt::format("its depth goes from {:g} to {:g}, and is scaled to 0 to 1", least, most));
-        for (float &d : depths) d = (d - least) / (most - least);
-        most = 1, least = 0;
+            fmt::format("its depth goes from {:g} to {:g}, and is scaled to 0 to 1", own->least, own->most));
+    } else if (!range && size < little) {
+        warnings.push_back(fmt::format(
+            "its depth goes from {:.3g} to {:.3g} of 0 to 1 only, and the blur with it: stretch it "
+            "(oiiotool DEPTH --subc {:.3g} --divc {:.3g} -o NEW); a distance in millimetres needs "
+            "`depth=normalized`, `near=0`, `far=65.535` and a lens",
+            own->least, own->most, own->least, size));
     }
-    const auto below_above = [&](std::size_t n) { // the sum of the last rows' depths less that of the first
-        return std::accumulate(depths.end() - std::ptrdiff_t(n), depths.end(), 0.0) -
-               std::accumulate(depths.begin(), depths.begin() + std::ptrdiff_t(n), 0.0);
-    };
     constexpr double clear = 0.25; // of the range: the ground is nearer than what is above it
-    if (below_above(depths.size() / 4) < -clear * double(depths.size() / 4) * double(most - least))
+    const std::size_t quarter = depths.size() / 4;
+    if (mean_of(depths.last(quarter)) - mean_of(depths.first(quarter)) < -clear * size)
         warnings.emplace_back(
             "its depth is darker below than above, and white must be near: if white is far, "
-            "invert it (oiiotool DEPTH --invert -o NEW)");
+            "invert it (oiiotool DEPTH --invert -o NEW); if it stands on its head, turn it");
+    const DisparityRange by = range.value_or(DisparityRange{0, 1});
+    constexpr double farthest = -0.9; // of a later frame: depth_of_disparity() needs more than -1
+    for (float &d : depths)
+        d = std::isfinite(d)
+                ? float(std::max((double(d) - by.least) / (by.most - by.least), range ? farthest : 0))
+                : std::numeric_limits<float>::quiet_NaN();
 }
 
 Camera photograph_camera() {

@@ -4,6 +4,7 @@
 #include "../view/view.h"
 #include "display/shown_picture.h"
 #include "exr/exr_deep.h"
+#include "open_view.h"
 
 #include <optional>
 #include <span>
@@ -26,9 +27,12 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
 std::optional<ShownExtras> extras_of(const Imf::Header &header);
 Imf::Header without_extras(const Imf::Header &header);
 
-// Scales disparities of the picture to 0 to 1 unless they lie there, and says so in `warnings`; so it does if white
-// seems to be far. Throws Error, naming the picture, if all are the same.
-void repair_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings);
+// Scales disparities of the picture to 0 to 1 unless they lie there, and says so in `warnings`; so it does if they use
+// little of that range, or white seems to be far. A `range` that is set scales them in place of their own; one that is
+// empty becomes theirs, if it scales them. What is not finite becomes NaN. Throws Error, naming the picture, if all are
+// the same.
+void repair_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings,
+                        std::optional<DisparityRange> &range);
 
 // In place of the unknown one; only tilts and the like depend on it.
 Camera photograph_camera();

@@ -208,5 +208,63 @@ TEST_F(Photograph, HalfAFileIsRefused) {
     }
 }
 
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+
+struct Repaired {
+    std::vector<float> depths;
+    std::vector<std::string> warnings;
+    bool says(const char *text) const {
+        return std::ranges::any_of(warnings,
+                                   [&](const std::string &w) { return w.find(text) != std::string::npos; });
+    }
+};
+Repaired repaired(std::vector<float> depths, std::optional<DisparityRange> range = {}) {
+    Repaired result{std::move(depths), {}};
+    repair_disparities(result.depths, "a", result.warnings, range);
+    return result;
+}
+
+TEST(Disparities, AreScaledToTheirRange) {
+    EXPECT_EQ(repaired({2, 3, 4, 6}).depths, (std::vector<float>{0, 0.25f, 0.5f, 1}));
+    EXPECT_TRUE(repaired({2, 3, 4, 6}).says("goes from 2 to 6, and is scaled"));
+    EXPECT_EQ(repaired({-1, -0.5f, 0, 0}).depths, (std::vector<float>{0, 0.5f, 1, 1})); // none above 1
+    EXPECT_EQ(repaired({-3e38f, 0, 3e38f, 3e38f}).depths, (std::vector<float>{0, 0.5f, 1, 1}));
+    EXPECT_EQ(repaired({0.25f, 0.5f, 1, 1}).depths, (std::vector<float>{0.25f, 0.5f, 1, 1}));
+    EXPECT_TRUE(repaired({0.25f, 0.5f, 1, 1}).warnings.empty());
+}
+
+TEST(Disparities, OfASequenceHaveTheRangeOfItsFirstFrame) {
+    EXPECT_EQ(repaired({2, 4, 6, 10}, DisparityRange{2, 6}).depths, (std::vector<float>{0, 0.5f, 1, 2}));
+    EXPECT_TRUE(repaired({2, 4, 6, 10}, DisparityRange{2, 6}).warnings.empty());
+    EXPECT_GT(repaired({-90, 4, 6, 10}, DisparityRange{2, 6}).depths[0], -1); // has a depth
+}
+
+TEST(Disparities, WhatIsNoNumberChangesNothingElse) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const float bad : {nothing, infinity, -infinity}) {
+        const Repaired found = repaired({bad, 2, 2, 3, 3, 4, 6, 6});
+        EXPECT_TRUE(std::isnan(found.depths[0]));
+        EXPECT_EQ(std::vector(found.depths.begin() + 1, found.depths.end()),
+                  (std::vector<float>{0, 0, 0.25f, 0.25f, 0.5f, 1, 1}));
+        EXPECT_FALSE(found.says("darker below")) << bad;
+    }
+    EXPECT_NE(what_of<Error>([] {
+                  repaired({infinity, 1, 1, 1});
+              }).find("the same everywhere"),
+              std::string::npos);
+}
+
+TEST(Disparities, WhiteMustBeNear) {
+    EXPECT_TRUE(repaired({1, 0.5f, 0.5f, 0}).says("darker below than above"));
+    EXPECT_TRUE(repaired({0.7f, 1, 0, 0.3f}).says("darker below than above"));  // by .4 of the range
+    EXPECT_FALSE(repaired({0.6f, 1, 0, 0.4f}).says("darker below than above")); // by .2
+    EXPECT_FALSE(repaired({0, 0.5f, 0.5f, 1}).says("darker below than above"));
+}
+
+TEST(Disparities, LittleOfTheRangeIsTold) {
+    EXPECT_TRUE(repaired({0, 0.01f, 0.02f, 0.03f}).says("goes from 0 to 0.03 of 0 to 1 only"));
+    EXPECT_FALSE(repaired({0.5f, 0.6f, 0.7f, 0.8f}).says("only"));
+}
+
 } // namespace
 } // namespace sparselens

@@ -63,6 +63,11 @@ oiiotool photo.jpg --rotate270 --orientation 6 -o turned.tif
 exits 0 "$bin/dof-gather" turned.tif --depth-file exact16.png --blur 6 --focus-pixel 160,120 -o turned.exr
 picture same turned.exr out.exr R,G,B 1e-3 || fail "turned.tif: another picture"
 
+# A floating-point depth and any format will do, and what is not finite counts as nothing.
+oiiotool exact16.png -d uint16 -o depth.pgm
+exits 0 "$bin/dof-gather" photo.jpg --depth-file depth.pgm --blur 6 --focus-pixel 160,120 -o same.exr
+picture same same.exr out.exr R,G,B 1e-3 || fail "depth.pgm: another picture"
+
 # One line for each mistake.
 oiiotool depth8.png --resize 160x90 -o small.png
 oiiotool depth8.png --mulc 0 -o even.png
@@ -72,6 +77,13 @@ sharp=(--focus-pixel 160,120)
 wrong 1 'small.png: is 160x90 pixels large, and photo.jpg is 320x180: .*--resize 320x180' --depth-file small.png --blur 6 "${sharp[@]}"
 wrong 1 'photo.jpg: has colours, and depth must be grey' --depth-file photo.jpg --blur 6 "${sharp[@]}"
 wrong 1 'its depth is the same everywhere' --depth-file even.png --blur 6 "${sharp[@]}"
+head -c 20000 photo.jpg >half.jpg
+head -c 9000 depth8.png >half.png
+wrong 1 'half.jpg: cannot read: a part of the file is missing' --depth-file half.jpg --blur 6 "${sharp[@]}"
+wrong 1 'half.png: cannot read' --depth-file half.png --blur 6 "${sharp[@]}"
+[ "$(wc -l <stderr)" = 1 ] || fail "libpng adds lines of its own: $(cat stderr)"
+printf '\x93NUMPY' >depth.npy
+wrong 1 'depth.npy: is a NumPy array: save it as a 16-bit PNG' --depth-file depth.npy --blur 6 "${sharp[@]}"
 wrong 1 'none.png: cannot read' --depth-file none.png --blur 6 "${sharp[@]}"
 wrong 2 'photo.jpg: is a picture without depth: give its depth by --depth-file' --blur 6 "${sharp[@]}"
 wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png "${sharp[@]}"
@@ -90,6 +102,15 @@ oiiotool depth16.png --mulc 0.8 --addc 0.1 -d uint16 -o d.0003.png
 exits 0 "$bin/dof-gather" shot.####.jpg --depth-file d.####.png --frames 1-3 --blur 1:6,3:20 "${sharp[@]}" -o v.####.png
 [ "$(grep -c 'flickers: .* by [0-9.]* pixels or more' stderr)" = 1 ] && grep -q 'shot.0003.jpg: its depth flickers' stderr || fail "flicker: $(cat stderr)"
 
+# Disparities of video that are not between 0 and 1 have one range: what stands still stays as it is.
+for frame in 1 2 3; do
+    oiiotool -i:type=float exact16.png --mulc 6 --addc 2 --box:color=$((8 * frame)):fill=1 20,100,60,140 --chnames Y -d float -o y.000$frame.exr
+done
+exits 0 "$bin/dof-gather" shot.####.jpg --depth-file y.####.exr --disparity --frames 1-3 --blur 6 "${sharp[@]}" -o y.####.png
+grep -q flickers stderr && fail "steady disparities flicker: $(cat stderr)"
+for frame in 1 3; do oiiotool y.000$frame.png --cut 100x60+220+20 -o part$frame.png; done
+oiiotool --fail 0 part1.png part3.png --diff >stdout || fail "what stands still changes: $(cat stdout)"
+
 # dof-view guesses blur and focus unless they are given, and its page sets the blur.
 cd ..
 export PYTHONDONTWRITEBYTECODE=1
@@ -97,6 +118,7 @@ blurs() { # blurs BLUR COMMAND...: the blur that the page begins with, and the l
     exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from served import served
 with served(*sys.argv[3:]) as server:
     cocs = [server.picture(settings={"blur": blur})[0]["lens"]["largest_coc"] for blur in ("4", "8")]
+    assert server.send("/rendered", b"{\"page\": \"a\"}")[0] == 200
     assert server.said("/facts")["blur"] == float(sys.argv[2]) and abs(cocs[1] / cocs[0] - 2) < 0.01, cocs' \
         "$source_dir/tests/viewing" "$@" || fail "dof-view: $(cat stderr)"
 }

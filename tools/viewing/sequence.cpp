@@ -45,10 +45,9 @@ std::vector<std::string> names_of(const std::vector<GatherCommand> &frames) {
 
 // Reads a file with the options of the first frame that has its name.
 FrameCache::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
-    return [frames, &tool](const std::string &name) {
+    return [frames, &tool, cache = std::make_shared<LdiCache>(true)](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
-        LdiCache cache;
-        return loaded_frame(std::move(cache.load(middle_moment(options), tool.notify())), options.windows,
+        return loaded_frame(std::move(cache->load(middle_moment(options), tool.notify())), options.windows,
                             options.colour);
     };
 }
