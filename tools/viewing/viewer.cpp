@@ -243,7 +243,8 @@ std::optional<std::string> Viewer::match(const PageRequest &wanted) {
 
 std::optional<std::string> Viewer::rendered(const PageRequest &wanted) {
     PageRequest sharp = wanted;
-    sharp.settings = {{"lens-radius", "0"}};
+    const bool photograph = sequence_.frame(command_of_frame(wanted))->in.depth == DepthMeaning::disparity;
+    sharp.settings = {{photograph ? "blur" : "lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
     return queue_.make(wanted.page + "/rendered", [this, command, wanted](Progress &progress) {
         const ShownPixels pixels = Sequence::displayed(sequence_.taken(command, tool_, progress).image,
