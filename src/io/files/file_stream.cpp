@@ -364,6 +364,11 @@ constexpr std::array<Format, 8> formats{{{"\x89PNG"sv, "a PNG"},
                                          {"#?RADIANCE"sv, "a Radiance"},
                                          {"#?RGBE"sv, "a Radiance"}}};
 
+// Whether a name is a pattern that a shell would have replaced.
+bool is_for_the_shell(const std::string &path) {
+    return path.starts_with('~') || path.find_first_of("{*?") != std::string::npos;
+}
+
 } // namespace
 
 std::unique_ptr<InputStream> open_input(const std::string &path, Content content) {
@@ -373,6 +378,9 @@ std::unique_ptr<InputStream> open_input(const std::string &path, Content content
     };
     if (path == "-") return in_memory(STDIN_FILENO);
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 && errno == ENOENT && is_for_the_shell(path))
+        throw Error(path +
+                    ": there is no such file: the shell replaces {0..3}, *, ? and ~ only outside of quotes");
     if (descriptor < 0) fail_of_system(path, "cannot open");
     const auto file = std::make_shared<const Descriptor>(descriptor);
     struct stat info {};

@@ -111,6 +111,22 @@ TEST_F(FileStream, KeepsTheModeOfWhatItReplaces) {
     EXPECT_EQ(contents_of(path), "new");
 }
 
+// Root may write everything, so another user tries.
+TEST_F(FileStream, AReadOnlyFileIsNotReplaced) {
+    put_contents(path, "published");
+    ASSERT_EQ(::chmod(path.c_str(), 0444), 0);
+    ASSERT_EQ(::chmod(fs::path(path).parent_path().c_str(), 0777), 0);
+    const uid_t user = ::geteuid();
+    if (user == 0) {
+        ASSERT_EQ(::seteuid(54321), 0);
+    }
+    const std::string what = what_of<Error>([&] { write_file(path, "new"); });
+    ASSERT_EQ(::seteuid(user), 0);
+    EXPECT_EQ(what, path + ": cannot replace: Permission denied");
+    EXPECT_EQ(contents_of(path), "published");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
 TEST_F(FileStream, KeepsTheUmask) {
     const mode_t before = ::umask(027);
     write_file(path, "x");
@@ -147,6 +163,15 @@ TEST_F(FileStream, WritesAndReadsThroughNamedPipes) {
     in->read(text.data(), 4);
     EXPECT_EQ(text.substr(0, 4), "aend");
     EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(OpenInput, SaysThatTheShellLeavesQuotedPatternsAlone) {
+    for (const std::string quoted : {"hero/view_{0..3}.0001.exr", "views/*.exr", "view_?.exr", "~/a.exr"})
+        EXPECT_EQ(what_of<Error>([&] { open_input(quoted); }),
+                  quoted + ": there is no such file: the shell replaces {0..3}, *, ? and ~ only outside of "
+                           "quotes");
+    EXPECT_EQ(what_of<Error>([&] { open_input("none~.exr"); }),
+              "none~.exr: cannot open: No such file or directory");
 }
 
 TEST_F(FileStream, ReadsAndSeeksInFiles) {
