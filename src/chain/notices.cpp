@@ -73,6 +73,8 @@ constexpr std::array table{
     Words{NoticeKind::clustered_blindly, note,
           "{0} samples to {1}, by inverse depth alone, because the lens is unknown"},
     Words{NoticeKind::focused, note, "the focus distance is {0:g}, the depth of pixel {1:g},{2:g}"},
+    Words{NoticeKind::used_lens, note,
+          "the picture is that of a lens of radius {0:g}, focal length {1:g} pixels, focused at {2:g}"},
     Words{NoticeKind::wide_lens, warning,
           "the aperture is larger than the one that the views were rendered for; parts of the picture are "
           "unknown"},
@@ -83,6 +85,10 @@ constexpr std::array table{
         NoticeKind::missing_overscan, once,
         "{file}: the blur reaches {0} pixels beyond the frame, and {1} were rendered there; discs of lights "
         "outside the frame are missing, so render more overscan"},
+    Words{
+        NoticeKind::too_much_blur, once,
+        "{file}: the blur reaches {0} pixels beyond the frame, which is farther than it is wide, so the lens "
+        "sees little that is known: check the aperture, the focus and the unit of the scene"},
     Words{NoticeKind::flicker, warning,
           "{file}: its depth flickers: where the picture stands still, half of the pixels change their blur "
           "by {0:.1f} pixels or more since the frame before"},
@@ -209,9 +215,10 @@ void notify_border_reach(const Notify &notify, const std::string &path, const Ld
                          int across, const LensLooks &looks) {
     const BorderReach reach = border_reach(ldi, lens, looks);
     if (reach.needed == 0) return;
-    const bool can_be_rendered = reach.needed <= ldi.windows.display_width(); // else depths or lens are wrong
-    const bool missing = reach.too_little() && reach.bright && can_be_rendered;
-    notify({missing ? NoticeKind::missing_overscan : NoticeKind::overscan,
+    const bool missing = reach.too_little() && reach.bright;
+    notify({reach.needed > ldi.windows.display_width() ? NoticeKind::too_much_blur
+            : missing                                  ? NoticeKind::missing_overscan
+                                                       : NoticeKind::overscan,
             display_name(path),
             {double(pieces_of(reach.needed, across)), double(reach.rendered / across)}});
 }

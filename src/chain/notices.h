@@ -45,11 +45,13 @@ enum class NoticeKind {
     clustered,         // samples before and after, the largest change of the CoC in pixels
     clustered_blindly,
     // Pictures.
-    focused, // depth, x, y of the pixel
+    focused,   // depth, x, y of the pixel
+    used_lens, // radius, focal length in pixels, focus
     wide_lens,
     round_aperture,   // method
     overscan,         // pixels needed, pixels rendered
     missing_overscan, // the same
+    too_much_blur,    // the same
     flicker,          // pixels of blur
     // Devices.
     on_cpu,

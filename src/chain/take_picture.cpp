@@ -102,6 +102,9 @@ private:
             work_.notify({.kind = NoticeKind::focused,
                           .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
         out_.lens = picture_lens(request_, in_, out_.camera);
+        if (out_.lens.radius > 0)
+            work_.notify({.kind = NoticeKind::used_lens,
+                          .values = {out_.lens.radius, out_.lens.focal_px, out_.lens.focus}});
         if (const double change = request_.blur.value_or(0) * in_.flicker; change > 0.5) // pixels: it is seen
             work_.notify({NoticeKind::flicker, in_.name, {change}});
         if (sees_past_views(out_.camera, out_.lens))

@@ -131,6 +131,10 @@ ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
     if (!focal_px) missing.add_focal_px();
     if (!camera.focus_distance) missing.add("the focus distance", "focus_distance");
     missing.refuse();
+    const double at_1 = *radius * *focal_px, at_infinity = at_1 / *camera.focus_distance;
+    if (constexpr double most = 1e30; !(std::max(at_1, at_infinity) <= most)) // so that floats hold CoCs
+        throw UsageError("the blur would be more than 1e30 pixels wide: check the aperture, `focal_length`, "
+                         "`focus_distance` and `scene_unit`");
     return {.radius = *radius,
             .focal_px = *focal_px,
             .focus = *camera.focus_distance,

@@ -109,6 +109,20 @@ TEST(TakePicture, FocusesOnWhatAPixelShows) {
               "`focus_pixel`: x.exr has no sample at (3, 2); choose a pixel that shows something");
 }
 
+// The camera of the file is told, too, so the last word is that of the options.
+TEST(TakePicture, TellsTheLensThatIsUsed) {
+    Told told;
+    PictureRequest request;
+    request.lens.focus_distance = 2.5;
+    taken(plane(4), request, &told);
+    ASSERT_TRUE(told.find(NoticeKind::used_lens));
+    EXPECT_EQ(words_of(*told.find(NoticeKind::used_lens)),
+              "the picture is that of a lens of radius 0.06, focal length 640 pixels, focused at 2.5");
+    Told sharp;
+    taken(plane(4), pinhole(), &sharp);
+    EXPECT_FALSE(sharp.find(NoticeKind::used_lens));
+}
+
 TEST(TakePicture, IsTheMeanOfSubpixels) {
     PictureRequest request = pinhole();
     request.windows.supersample = 2;
@@ -137,6 +151,17 @@ TEST(TakePicture, TellsThatOverscanIsMissing) {
     EXPECT_FALSE(dark.find(NoticeKind::missing_overscan));
     ASSERT_TRUE(dark.find(NoticeKind::overscan));
     EXPECT_EQ(level_of(*dark.find(NoticeKind::overscan)), NoticeLevel::note);
+}
+
+TEST(TakePicture, TellsThatTheBlurIsWiderThanThePicture) {
+    Told narrow, wide;
+    taken(plane(-39), {}, &narrow);
+    taken(plane(-41), {}, &wide);
+    EXPECT_FALSE(narrow.find(NoticeKind::too_much_blur));
+    ASSERT_TRUE(wide.find(NoticeKind::too_much_blur));
+    EXPECT_EQ(words_of(*wide.find(NoticeKind::too_much_blur)),
+              "x.exr: the blur reaches 42 pixels beyond the frame, which is farther than it is wide, so the "
+              "lens sees little that is known: check the aperture, the focus and the unit of the scene");
 }
 
 TEST(TakePicture, TellsOfALensThatIsWiderThanItsViews) {

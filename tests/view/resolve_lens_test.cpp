@@ -110,6 +110,21 @@ TEST(ResolveLens, WhatIsMissingNamesItsOption) {
         "give `focus_distance`");
 }
 
+TEST(ResolveLens, ABlurBeyondAllPicturesIsRefused) {
+    const auto refused = [](LensValues values) {
+        return what_of<UsageError>(
+                   [&] { resolve_lens(camera_with_options(values, known_camera()), hundred); })
+            .starts_with("the blur would be more than 1e30 pixels wide: check");
+    };
+    EXPECT_TRUE(refused({.lens_radius = 1e308}));
+    EXPECT_TRUE(refused({.lens_radius = 1e308, .focus_distance = inf}));
+    EXPECT_TRUE(refused({.focal_length_mm = 1e308}));
+    EXPECT_TRUE(refused({.fstop = 1e-308}));
+    EXPECT_TRUE(refused({.focus_distance = 1e-308}));
+    EXPECT_TRUE(refused({.fstop = 2, .scene_unit = 1e-308}));
+    EXPECT_FALSE(refused({.lens_radius = 1e20}));
+}
+
 TEST(ResolveLens, APinholeNeedsNothingElse) {
     LensValues radius;
     radius.lens_radius = 0;

@@ -73,6 +73,14 @@ LensTiles tiles_of(const Windows &windows) {
     return tiles;
 }
 
+// The same points in the middle of the lens. Where all samples are blurred by more than the picture is wide, points
+// farther out see past it; if too few see anything, a wider lens blurs less.
+std::vector<LensSample> narrowed(std::span<const LensSample> points, float share) {
+    std::vector<LensSample> moved(points.begin(), points.end());
+    for (LensSample &point : moved) point.x *= share, point.y *= share;
+    return moved;
+}
+
 constexpr int caster_cells = cell_sizes.back();
 
 // Whether tiles may be gathered in cells: not if one lens point or a number of points is asked for, not with a holdout,
@@ -168,7 +176,7 @@ std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
     if (largest < GatherTuning::in_focus_px && !optics_.moves() && !moved_light_reaches(tile)) return {};
     // The edge of a transparent background would be as coarse as the cells.
     const bool cells = has_cells(options_, optics_) && !cocs.with_background;
-    return Blur{largest, steepest,
+    return Blur{largest, cocs.least, steepest,
                 cells ? cell_size_for(cocs.least * optics_.narrowest(), options_.quality) : 1};
 }
 
@@ -212,6 +220,9 @@ void TilePlan::gather_from(const Level &level, const Blur &blur, PlannedTile &ti
         }
     }
     tile.lens = sets_.for_coc(blur.largest, optics_.doubled(tile.first, lens_tile_size));
+    const int across = std::max(picture_.display_width(), picture_.display_height());
+    if (blur.least > float(across) && !options_.point)
+        tile.lens = tile.bent = narrowed(tile.lens, float(across) / blur.least);
     if (!optics_.field.flat()) tile.lens = tile.bent = level.scene.optics->bent(tile.lens, first, size);
 }
 

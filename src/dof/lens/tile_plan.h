@@ -157,7 +157,7 @@ private:
     };
     // The blur that reaches a tile, pixels.
     struct Blur {
-        float largest; // CoC
+        float largest, least; // CoCs
         float stretched;
         int cells; // size of the cells that it asks for; 1: none
     };

@@ -447,6 +447,22 @@ TEST(LensGather, OneSampleFarOutOfFocusHarmsNothing) {
     EXPECT_LT(rms_difference(gather(layers(true), lens), gather(layers(false), lens)), 0.03);
 }
 
+// Points of a lens that blurs by far more than the picture is wide see past it. If only a few saw anything, the blur
+// would have the contrast of the texture.
+TEST(LensGather, AWiderBlurHasNoMoreContrast) {
+    const auto contrast = [](double c) {
+        const Ldi wall = make_ldi(windows_of_size(84, 48), grey, [&](int x, int y) {
+            return std::vector<Sample>{{depth_of(lens, c), {float(texture(x, y))}}};
+        });
+        const Image picture = gather(wall, lens);
+        const auto [least, most] = std::ranges::minmax(picture.values);
+        return most - least;
+    };
+    const float wide = contrast(-90);
+    EXPECT_LT(wide, 0.15f);
+    for (const double c : {-200.0, -5e3, -1e12}) EXPECT_LT(contrast(c), 1.1f * wide) << c;
+}
+
 TEST(LensGather, TakesTheSmallestPictures) {
     for (const std::size_t count : {0u, 1u, 3u}) {
         const Ldi one = make_ldi(windows_of_size(1, 1), rgba_channels(), [&](int, int) {
