@@ -135,6 +135,23 @@ TEST(LampShadow, LetsThroughWhatIsNotCovered) {
     }
 }
 
+// In front of focus the disc is turned by half a turn, which three blades show.
+TEST(LampCells, ShineAsTheDiscIsSpread) {
+    const Aperture blades(ApertureShape{.blades = 3});
+    const Imath::Box2i around({0, 0}, {23, 23});
+    for (const double coc : {7.0, -7.0}) {
+        const Lamp lamp{{12.2, 11.6}, coc};
+        const LampLight light = LampCells(blades, coc > 0).shine(lamp, 0, nullptr, around);
+        const LampSpread spread = spread_lamp(blades, lamp, around);
+        double off = 0;
+        std::size_t i = 0;
+        for (int y = spread.box.min.y; y <= spread.box.max.y; ++y)
+            for (int x = spread.box.min.x; x <= spread.box.max.x; ++x)
+                off += std::abs(double(light.whole[light.at(x, y)][3]) - spread.weights[i++]);
+        EXPECT_LT(off, 0.05) << coc;
+    }
+}
+
 // Compared with the definition, point by point: the lamp at q is hidden through u = (q - x) / c if x' + c' u covers q.
 TEST(ShadowMagnification, IsWhatSimilarTrianglesSay) {
     for (const double lamp_coc : {12.0, -9.0})

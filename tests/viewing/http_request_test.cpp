@@ -45,6 +45,8 @@ TEST(HttpRequest, AnythingElseIsRefused) {
     for (const char *line :
          {"", "GET", "GET / HTTP/9.9", "get / HTTP/1.1", "GET x HTTP/1.1", "GET  / HTTP/1.1",
           "GET / HTTP/1.1 x", "GET / HTTP/1.1\r\nno colon", "GET / HTTP/1.1\r\nHost: a\r\nHost: b",
+          "GET / HTTP/1.1\r\nOrigin: a\r\nOrigin: b",
+          "GET / HTTP/1.1\r\nX-Sparselens-Key: a\r\nX-Sparselens-Key: b",
           "GET / HTTP/1.1\r\nContent-Length: -5", "GET / HTTP/1.1\r\nContent-Length: 5x",
           "GET / HTTP/1.1\r\nContent-Length: 5\r\nContent-Length: 6"})
         EXPECT_EQ(status_of(line + std::string("\r\n\r\n")), 400) << line;

@@ -117,6 +117,23 @@ TEST(ContinueSurfaces, ShowWhatWasSeenBeforeTheEnd) {
         }
 }
 
+// Behind a corner of the plate the board goes on from its right end (light 0.5) and from its upper end (0.2). Each
+// counts by its nearness.
+TEST(ContinueSurfaces, TheNearerEndCountsMore) {
+    Boards boards;
+    boards.rows_of_plate = 40; // views saw the board down to row 38
+    boards.light = [](double column, double) { return column < 38 ? 0.2f : 0.5f; };
+    const Ldi ldi = boards.ldi();
+    for (const auto &[column, y] : {std::pair(36, 38), {36, 40}, {35, 38}}) {
+        const auto samples = board_of(ldi, y);
+        const auto at = std::ranges::find(samples, column, &Sample::column);
+        ASSERT_NE(at, samples.end());
+        const double from_right = 1.0 / (38 - column), from_above = 1.0 / (y - 37);
+        EXPECT_NEAR(at->light, (0.5 * from_right + 0.2 * from_above) / (from_right + from_above), 0.01)
+            << column << ',' << y;
+    }
+}
+
 // A lamp at the end of the board, and one that stands before the end.
 TEST(ContinueSurfaces, LampsDoNotContinue) {
     for (const double from : {0, 40}) {
