@@ -15,7 +15,7 @@ Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &windo
 [[maybe_unused]] const bool joined = join_gather_methods(
     {"scatter",
      "spreads each sample exactly, a slow check of selective that takes minutes where the blur is large",
-     false, by_scatter});
+     false, false, by_scatter});
 
 } // namespace
 

@@ -117,7 +117,7 @@ private:
 
     // Finds the paths of lamps. If the middle moment has no lamps, the others are not looked at.
     void follow_lamps(std::size_t middle) {
-        if (request_.picture.method != &gather_methods().front()) return;
+        if (!request_.picture.method->by_lens_points) return;
         PictureRequest request = request_;
         request.front_depth = false;
         std::vector<std::vector<LampPart>> lamps(moments_.size());

@@ -33,9 +33,6 @@ Ldi holdout_of(const PictureRequest &request, const OpenedLdi &in, const OpenedL
     return holdout_for(in, request.windows, holdout.ldi, holdout.name);
 }
 
-bool is_lens_method(const PictureRequest &request) {
-    return request.picture.method == &gather_methods().front();
-}
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
 // Takes the picture of `in`. Its samples may be used up if they are `own`.
@@ -124,7 +121,7 @@ private:
         const LensFile given =
             (work_.looks ? *work_.looks : own_reader).read(request_.looks, out_.camera.fstop);
         LensLooks &looks = by_.gather.lens.looks;
-        if (is_lens_method(request_))
+        if (request_.picture.method->by_lens_points)
             looks = picture_looks(given, out_.camera, out_.header, lens_, ldi().windows);
         else if (shape_aperture(out_.camera.looks))
             work_.notify({.kind = NoticeKind::round_aperture,
@@ -247,7 +244,7 @@ void check_method(const PictureRequest &request,
     if (request.device != "cpu" && request.device != "auto" && !method.on_devices)
         throw UsageError(
             fmt::format("`device={}`: works with `method=lens` and `method=selective` only", request.device));
-    if (request.show == Show::tiles && !is_lens_method(request))
+    if (request.show == Show::tiles && !method.by_lens_points)
         throw UsageError("`show=tiles`: works with `method=lens` only");
 }
 

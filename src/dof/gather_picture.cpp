@@ -22,7 +22,7 @@ namespace {
 template <typename AnyLdi>
 Image gather_frame(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                    const GatherMethod &method, const GatherOptions &by, Progress &progress) {
-    if (&method != &gather_methods().front() || by_coverage(ldi).size() > 1)
+    if (!method.by_lens_points || by_coverage(ldi).size() > 1)
         return method.gather(ldi, lens, gathered, by, progress);
     return gather_beyond(std::forward<AnyLdi>(ldi), lens, gathered, by,
                          [&](const Ldi &all, const LensGatherOptions &all_by) {
@@ -90,12 +90,12 @@ Ldi flattened(const Ldi &ldi) {
 
 bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
     return options.layer_tolerance > 0 && lens.radius > 0 && !options.holdout &&
-           options.method == &gather_methods().front();
+           options.method->by_lens_points;
 }
 
 bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool magnifies,
                       std::span<const Channel> channels) {
-    return options.method == &gather_methods().front() && !options.holdout && !magnifies &&
+    return options.method->by_lens_points && !options.holdout && !magnifies &&
            !(lens.radius == 0 && std::ranges::any_of(channels, is_in_matte));
 }
 

@@ -58,8 +58,8 @@ Ldi without_mattes(Ldi ldi) {
 
 std::vector<GatherMethod> &table() {
     static std::vector<GatherMethod> methods{
-        {"lens", "decides for every point of the lens what hides what", true, by_lens},
-        {"selective", "blurs a few layers per pixel, the published method", true, by_selective}};
+        {"lens", "decides for every point of the lens what hides what", true, true, by_lens},
+        {"selective", "blurs a few layers per pixel, the published method", true, false, by_selective}};
     return methods;
 }
 

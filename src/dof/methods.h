@@ -34,7 +34,10 @@ struct GatherMethod {
     const char *name;
     const char *what; // description for users, a few words
     bool on_devices;  // GatherOptions::lens.device may be given
-    Gather light;     // all channels but Cryptomattes
+    // Looks through each point of the lens, so that looks, tiles, merged layers, the paths of lamps and what lies beyond
+    // the frame work with it.
+    bool by_lens_points;
+    Gather light; // all channels but Cryptomattes
 
     // Gathers the pixels of a window (EXR coordinates) within the data window of the LDI: all its channels, each by its
     // own coverage (deep/channel_alpha.h). The lens radius must be above 0.

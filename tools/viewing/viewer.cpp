@@ -120,7 +120,7 @@ std::string Viewer::facts(const PageRequest &wanted) {
                {"height", display.max.y - display.min.y + 1},
                {"pixel_aspect", windows.pixel_aspect},
                {"samples", frame->packed.samples()},
-               {"lens_method", command.picture.method == &gather_methods().front()},
+               {"lens_method", command.picture.method->by_lens_points},
                {"looks", look_controls(options_.presets)},
                {"reference", !options_.reference.empty()},
                {"plate", !options_.plate.empty()},
