@@ -1,22 +1,19 @@
-// Fillers: what is assumed to lie where no view could look.
+// Fillers: what is assumed to lie where no view could look, by the rule of deep/unseen.h.
 //
 // The ground of a pixel is the last thing that it holds: if the pixel is transparent, what lies at infinity (nothing);
-// else its last sample of half coverage or more. A ground continues along its row and its column behind nearer grounds,
-// as far as some point of the lens could see it. It continues to n pixels beyond its end while the ground there is
-// nearer by more than one_surface_px and by more than (n - 1) / sqrt(2) pixels of disparity, because its edge may run
-// at 45 degrees. It does not continue where the ground is unknown; frame_extension.h says what lies beyond the frame.
+// else its last sample of half coverage or more. A ground continues along its row and its column behind nearer grounds.
 //
-// If grounds continue into a pixel from several sides, the one with the nearest end fills it; if several ends are as
-// near, the farthest ground. The filler is the mean of all these grounds that are one surface with it, each weighted by
-// 1 / n. A pixel that holds a sample of that surface is not filled, because views looked there: a veil stays as thin as
-// they saw it.
-//
-// A filler shows what the last pixel of the ground shows. If that pixel holds one sample whose colour is a mixture
-// (deep/mixed_pixels.h) of the pixel before it, on the same surface, and of the pixel that hides the ground, the filler
-// shows what the pixel before it shows. This happens on silhouettes that no view unmixed.
-//
-// A filler lies behind all samples, at the depth of the ground that it continues: a lens point sees it only where it
-// meets no opaque sample.
+// - It reaches n pixels beyond its end while the ground there is nearer by more than one_surface_px and by more than
+//   (n - 1) / sqrt(2) pixels of disparity: some point of the lens could see it.
+// - It does not continue where the ground is unknown; frame_extension.h says what lies beyond the frame.
+// - If several grounds continue into a pixel, the one with the nearest end fills it; if several ends are as near, the
+//   farthest ground. The filler is the mean of all that are one surface with it, each weighted by 1 / n.
+// - A pixel that holds a sample of that surface is not filled, because views looked there: a veil stays as thin as they
+//   saw it.
+// - A filler shows what the last pixel of the ground shows; or what the pixel before that shows, if the last one holds
+//   one sample whose colour is a mixture (deep/mixed_pixels.h) of that pixel, on the same surface, and of the pixel that
+//   hides the ground, as on silhouettes that no view unmixed.
+// - It lies behind all samples, at the depth of its ground: a lens point sees it only where it meets no opaque sample.
 #pragma once
 
 #include "base/image.h"

@@ -2,23 +2,28 @@
 //
 // Whether a position in a disc sees the lamp does not depend on the lens points of the gather: position and lamp
 // determine the point of the lens, and so what hides the lamp there (lens/lamp_shadow.h). A sample hides everything
-// farther. Samples of one surface do not shadow each other, because their footprints share edges; opaque samples side
-// by side cast one shadow (dof/footprints/footprint.h). Highlights of partial coverage in other pixels that are at most
-// a tenth nearer do not hide each other: they are lamps smaller than a pixel, side by side.
+// farther; solids, and the fillers that hide lamps (fillers.h), do as samples do. But:
+//
+// - Samples of one surface do not shadow each other, because their footprints share edges; opaque samples side by side
+//   cast one shadow (dof/footprints/footprint.h).
+// - Highlights of partial coverage in other pixels that are at most a tenth nearer do not hide each other: they are
+//   lamps smaller than a pixel, side by side.
+// - A mirror does not hide the lamps that it shows (Ldi::image_z).
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
 // costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart in the
 // picture, and m w apart relative to the discs, with m as in lamp_shadow.h. If one of these is at most a hundredth of
-// the disc's radius, the members of a group (highlights.h) share the shadow on the member in their middle. It stays in
-// place if the caster is near the focus. It moves with the disc, by whole pixels, if the caster is far in front of the
-// lamp. Other shadows are cast for each member.
+// the disc's radius, the members of a group (highlights.h) share the shadow on the member in their middle:
 //
-// In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
-// front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide. Below final quality
-// they do so in all tiles, if wide lamps are many: up to a sixteenth in a draft, else up to 1/64 (tile_plan.h).
+// - It stays in place if the caster is near the focus.
+// - It moves with the disc, by whole pixels, if the caster is far in front of the lamp.
+// - Other shadows are cast for each member.
 //
-// Solids and the fillers that hide lamps (fillers.h) cast shadows as samples do. A mirror does not hide the lamps that
-// it shows (Ldi::image_z).
+// The samples of a coarse scene (cells.h) cast the shadows of what lies far in front of the lamp, where the shadow of a
+// cell is at most this share of the disc's radius wide:
+//
+// - a sixteenth in a tile that is gathered in cells;
+// - a sixteenth in a draft, else 1/64, in all tiles below final quality if wide lamps are many (tile_plan.h).
 #pragma once
 
 #include "dof/lens/highlights.h"
