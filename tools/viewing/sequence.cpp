@@ -45,10 +45,13 @@ std::vector<std::string> names_of(const std::vector<GatherCommand> &frames) {
 
 // Reads a file with the options of the first frame that has its name.
 FrameCache::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
-    return [frames, &tool, cache = std::make_shared<LdiCache>(true)](const std::string &name) {
+    return [frames, &tool, all = std::make_shared<LdiCache>(true)](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
-        return loaded_frame(std::move(cache->load(middle_moment(options), tool.notify())), options.windows,
-                            options.colour);
+        LdiCache alone;
+        LdiCache &cache = frames.size() > 1 ? *all : alone;
+        OpenedLdi &in = cache.load(middle_moment(options), tool.notify());
+        in.flicker = 0; // frames are read in any order
+        return loaded_frame(std::move(in), options.windows, options.colour);
     };
 }
 
