@@ -11,8 +11,8 @@
 // - A pixel that holds a sample of that surface is not filled, because views looked there: a veil stays as thin as they
 //   saw it.
 // - A filler shows what the last pixel of the ground shows; or what the pixel before that shows, if the last one holds
-//   one sample whose colour is a mixture (deep/mixed_pixels.h) of that pixel, on the same surface, and of the pixel that
-//   hides the ground, as on silhouettes that no view unmixed.
+//   one sample whose colour is a mixture (deep/mixed_pixels.h) of that pixel, on the same surface, and of the pixel
+//   that hides the ground, as on silhouettes that no view unmixed.
 // - It lies behind all samples, at the depth of its ground: a lens point sees it only where it meets no opaque sample.
 #pragma once
 

@@ -1,12 +1,10 @@
 #include "dof/lens/shadow_search.h"
 
 #include "dof/lens/cells.h"
-#include "dof/lens/lens_gather.h"
 #include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace sparselens {
 

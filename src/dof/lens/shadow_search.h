@@ -8,7 +8,6 @@
 #include "base/numbers.h"
 #include "dof/footprints/footprint.h"
 #include "dof/lens/block_footprints.h"
-#include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
 #include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
@@ -20,8 +19,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
