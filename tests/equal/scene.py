@@ -88,3 +88,12 @@ def deep(things=None):
         counts[y, x] = len(found)
     channels = dict(zip(["R", "G", "B", "A", "Z", "ZBack"], half(samples).T.copy()))
     return Picture({**channels, "diffuse.R": channels["G"] / 2}, DISPLAY, DISPLAY, counts)
+
+
+def texture():
+    """Three grainy walls side by side, for dof-match."""
+    grain, box = numpy.random.default_rng(1).random((3, 48, 80)), (0, 0, 79, 47)
+    z = numpy.full((48, 80), SKY, "<f4")
+    for left, depth in (8, 2.5), (30, 5), (50, 10):
+        z[6:42, left:left + 22] = depth
+    return Picture({**{name: half(v * (z < SKY)) for name, v in zip("RGB", grain)}, "A": half(z < SKY), "Z": z}, box, box)

@@ -1,4 +1,4 @@
-# Files by other programs: several parts, one per layer or per view, tiles, every compression; the sky in each
+# Files by other programs: several parts, one per layer or per view; the sky in each
 # renderer's form, and renderers' cameras; the views of stereo files, coloured alpha, and the history of a picture.
 #   bash files.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
@@ -187,14 +187,6 @@ exits 0 "$bin/ldi-cluster" ldi.exr -o less.exr --layers 1 --no-history
 export SPARSELENS_NO_HISTORY=1
 exits 0 "$bin/dof-gather" 'centre view.exr' -o again.exr --lens-radius 0
 cmp -s out.exr again.exr || fail "\$SPARSELENS_NO_HISTORY is not --no-history"
-
-# Tiles and lossless compressions.
-for how in '--tile 8 8' '--compression none' '--compression rle' '--compression zips' '--compression piz'; do
-    # shellcheck disable=SC2086
-    oiiotool one.exr $how -o how.exr
-    exits 0 "$bin/dof-gather" how.exr -o out.exr "${flat[@]}"
-    same out.exr expected.exr "$how"
-done
 
 # The sky: any of its usual values gives the picture of infinity. --far: the far clip is sky too.
 lens=(--focal-length 50 --sensor-width 36 --fstop 0.5 --focus-distance 4 -d float)

@@ -67,9 +67,6 @@ exits 0 "$warp" $center --view 0.0599999987,0 views/view_0.exr -o exactly.exr # 
 same_samples exactly.exr by_metadata.exr "a camera placed by hand and one by its metadata"
 exits 0 "$warp" $center --view 0.06,0 views/view_2.exr -o elsewhere.exr
 differ after.exr elsewhere.exr "--view X"
-exits 0 "$warp" $center --view 0,0.06 "${rim[1]}" --view -0.06,0 "${rim[2]}" -o two.exr
-exits 0 "$warp" $center --view -0.06,0 "${rim[2]}" --view 0,0.06 "${rim[1]}" -o two_turned.exr
-same_samples two.exr two_turned.exr "the order of views"
 for text in abc 1 1, ,1 1,2,3 nan,0 0,inf; do fails_saying 2 "--view.*$text" "$warp" $center --view "$text" "${rim[0]}" -o x.exr; done
 picture edit "${rim[0]}" lost.exr erase=worldToCamera
 fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
