@@ -36,6 +36,23 @@ std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::
     return Mix{share, residual};
 }
 
+std::optional<VeilMix> unmix_veil(const Imath::V4d &c, const Imath::V4d &f, const Imath::V4d &b,
+                                  double largest_residual) {
+    // With a = c.alpha - m b.alpha and m = (1 - a) k: what c has more than F of that coverage is m times `contrast`.
+    const Imath::V3d contrast = rgb(b) - b[3] * rgb(f), offset = rgb(c) - c[3] * rgb(f);
+    const double size = 0.5 * (b[3] * b[3] * rgb(f).dot(rgb(f)) + rgb(b).dot(rgb(b))),
+                 distance = contrast.dot(contrast);
+    if (distance <= least_contrast * least_contrast * size) return {};
+    double m = std::clamp(offset.dot(contrast) / distance, 0.0, c[3] / b[3]);
+    for (int k = 0; k < 3; ++k)
+        if (m * b[k] > c[k]) m = std::max(c[k], 0.0) / b[k];
+    const double share = c[3] - m * b[3], density = m / (1 - share);
+    if (!(share >= least_mixed_share && share <= 1 - least_mixed_share)) return {}; // also if a colour is NaN
+    const double residual = (offset - m * contrast).length() / (rgb(f) - density * rgb(b)).length();
+    if (!(residual <= largest_residual)) return {};
+    return VeilMix{share, density, residual};
+}
+
 namespace {
 
 constexpr double sky = 1e10;              // the depth that renderers write for sky, which a filter mixes in

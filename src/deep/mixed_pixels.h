@@ -36,6 +36,19 @@ std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::
 
 inline Imath::V3d rgb(const Imath::V4d &rgba) { return {rgba[0], rgba[1], rgba[2]}; }
 
+// A mixture with a veil behind, whose density changes from pixel to pixel: c = a F + (1 - a) k B. Colours are RGBA, F
+// is opaque, and B covers a part of its pixel.
+struct VeilMix {
+    double share;    // a, of F
+    double density;  // k: the veil covers k times as much as B
+    double residual; // as above, with k B for B
+};
+
+// Solves for a and k: the coverages add up to that of c exactly, the colours by least squares. As coverage tells more
+// than the depth of the pixel, there is no prior. Returns nothing where unmix() would.
+std::optional<VeilMix> unmix_veil(const Imath::V4d &c, const Imath::V4d &f, const Imath::V4d &b,
+                                  double largest_residual);
+
 // Corrects the depth of pixels on the edge of a surface, where the renderer wrote a depth at which the pixel shows
 // nothing.
 //

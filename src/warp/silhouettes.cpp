@@ -18,6 +18,16 @@ namespace sparselens {
 
 namespace {
 
+// Opaque pixels mix opaque surfaces. A veil's density, like what a pixel leaves open, differs from pixel to pixel.
+std::optional<VeilMix> unmix_before(const Imath::V4d &behind, const Imath::V4d &c, const Imath::V4d &front,
+                                    const MixPrior &prior, double largest_residual) {
+    if (!is_opaque(float(behind[3])) || !is_opaque(float(c[3])))
+        return unmix_veil(c, front, behind, largest_residual);
+    const auto mix = unmix(rgb(c), rgb(front), rgb(behind), prior, largest_residual);
+    if (!mix) return {};
+    return VeilMix{mix->share, 1, mix->residual};
+}
+
 // The colour of a surface around a pixel: a mean over samples.
 struct Estimate {
     std::vector<Term> terms; // coefficients sum to 1
@@ -41,7 +51,8 @@ private:
     bool is_of_crossed_lamp(int x, int y) const;
     Mixture of_lamp(int x, int y, const Mixture &light) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
-    std::optional<Estimate> estimate(int x, int y, double depth) const;
+    enum class Needs { opaque, any };
+    std::optional<Estimate> estimate(int x, int y, double depth, Needs needs) const;
     Imath::V4d purest(int x, int y, double depth, const Imath::V4d &front, const Imath::V4d &behind) const;
     std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V4d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
@@ -125,12 +136,12 @@ const auto nearness = [] {
 
 // Returns the mean of the surface at that depth over the pixels around that nothing nearer may be mixed into. Pixels
 // that something farther may be mixed into count less, because a lamp behind the surface would shine at its depth.
-std::optional<Estimate> Separation::estimate(int x, int y, double depth) const {
+std::optional<Estimate> Separation::estimate(int x, int y, double depth, Needs needs) const {
     Estimate result;
     result.terms.reserve((2 * WarpTuning::silhouette_radius + 1) * (2 * WarpTuning::silhouette_radius + 1));
     double sum = 0;
     around(x, y, WarpTuning::silhouette_radius, [&](std::uint64_t i, int dx, int dy) {
-        if (!tells_of(depth, i) || !is_opaque(i)) return;
+        if (!tells_of(depth, i) || (needs == Needs::opaque && !is_opaque(i))) return;
         const double weight = nearness[std::size_t(dx * dx + dy * dy)] *
                               (sides_[i] & has_farther ? WarpTuning::silhouette_edge_share : 1);
         result.terms.push_back({i, weight});
@@ -159,16 +170,18 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
             mixture.far_depth = depth;
         nearest = std::min(nearest, double(distance));
     });
-    const auto front = estimate(x, y, mixture.near_depth), behind = estimate(x, y, mixture.far_depth);
+    const auto front = estimate(x, y, mixture.near_depth, Needs::opaque),
+               behind = estimate(x, y, mixture.far_depth, Needs::any);
     if (!front) return {};
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
     const Imath::V4d f =
         front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
-    const auto mix = unmix(rgb(colour_of(own)), rgb(f), rgb(behind->colour), own_is_far ? mostly_b : mostly_f,
-                           WarpTuning::silhouette_residual);
+    const auto mix = unmix_before(behind->colour, colour_of(own), f, own_is_far ? mostly_b : mostly_f,
+                                  WarpTuning::silhouette_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
     mixture.share = mix->share;
     mixture.behind = behind->terms;
+    for (Term &term : mixture.behind) term.coefficient *= mix->density;
     return mixture;
 }
 
@@ -194,13 +207,13 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
     std::optional<Mixture> best;
     double least = std::numeric_limits<double>::infinity();
     around(x, y, 1, [&](std::uint64_t i, int, int) {
-        if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
-        const auto mix = unmix(rgb(colour_of(own)), rgb(front), rgb(colour_of(i)),
-                               own_is_far ? mostly_b : mostly_f, WarpTuning::silhouette_residual_of_one);
+        if (i == own || depth_of(i) >= near_depth - jump_) return;
+        const auto mix = unmix_before(colour_of(i), colour_of(own), front, own_is_far ? mostly_b : mostly_f,
+                                      WarpTuning::silhouette_residual_of_one);
         if (!mix || mix->residual >= least) return;
         if (std::min(mix->share, 1 - mix->share) < WarpTuning::silhouette_least_share_of_one) return;
         least = mix->residual;
-        best = {near_depth, depth_of(i), mix->share, {{i, 1}}};
+        best = {near_depth, depth_of(i), mix->share, {{i, mix->density}}};
     });
     return best;
 }
@@ -240,6 +253,7 @@ Mixture Separation::of_lamp(int x, int y, const Mixture &light) const {
 }
 
 std::optional<Mixture> Separation::find(int x, int y) const {
+    if (!is_opaque(own_sample(x, y))) return mixture_of(x, y);
     const bool strands = among_strands(samples_, x, y);
     if (strands || is_of_crossed_lamp(x, y))
         if (const auto light = light_between_strands(samples_, x, y, jump_,
@@ -251,7 +265,7 @@ std::optional<Mixture> Separation::find(int x, int y) const {
 bool Separation::may_be_mixed(std::size_t pixel) const {
     if (samples_.is_empty(pixel)) return false;
     const std::uint64_t own = view_.pixel(pixel).front();
-    return sides_[own] != inside && is_opaque(own);
+    return sides_[own] != inside;
 }
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {

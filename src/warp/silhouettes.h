@@ -7,7 +7,8 @@
 // again. B is a mean over the pixels around. If c does not lie on that line, B is one of the farther pixels beside it,
 // because a lamp half behind a post must not shine at the post's depth. If that fails too, the pixel stays as it is.
 //
-// Pixels of partial coverage, and the veils behind an edge, stay as they are.
+// The farther surface may be a veil, such as smoke, a net or a see-through element. Then c = a F + (1 - a) k B over
+// RGBA, where k says how dense the veil is in this pixel: coverage tells a and k apart.
 #pragma once
 
 #include "deep/view_samples.h"

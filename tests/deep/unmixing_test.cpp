@@ -74,5 +74,48 @@ TEST(Unmix, SaysNothingWhereNothingCanBeTold) {
     }
 }
 
+const Imath::V4d opaque_red{1, 0.1, 0, 1}, veil{0, 0.4, 0.1, 0.5};
+
+TEST(UnmixVeil, FindsTheShareAndTheDensity) {
+    for (const double share : {0.05, 0.3, 0.5, 0.8})
+        for (const double density : {0.2, 0.7, 1.0, 1.9}) {
+            const auto mix =
+                unmix_veil(share * opaque_red + (1 - share) * density * veil, opaque_red, veil, 0.1);
+            ASSERT_TRUE(mix) << share << " " << density;
+            EXPECT_NEAR(mix->share, share, 1e-12);
+            EXPECT_NEAR(mix->density, density, 1e-12);
+            EXPECT_NEAR(mix->residual, 0, 1e-7);
+        }
+}
+
+TEST(UnmixVeil, CoverageTellsBlackFromNothing) {
+    const Imath::V4d black{0, 0, 0, 1};
+    const auto mix = unmix_veil(0.3 * black + 0.7 * veil, black, veil, 0.1);
+    ASSERT_TRUE(mix);
+    EXPECT_NEAR(mix->share, 0.3, 1e-12);
+}
+
+TEST(UnmixVeil, KeepsCoverageAndLight) {
+    const Imath::V4d c{0.2, 0.3, 0.02, 0.6}; // not quite a mixture of the two
+    const auto mix = unmix_veil(c, opaque_red, veil, 0.5);
+    ASSERT_TRUE(mix);
+    EXPECT_GT(mix->residual, 0.01);
+    const double behind = (1 - mix->share) * mix->density;
+    EXPECT_NEAR(mix->share + behind * veil[3], c[3], 1e-12);
+    for (int k = 0; k < 3; ++k) EXPECT_LE(behind * veil[k], c[k] * (1 + 1e-12));
+    EXPECT_FALSE(unmix_veil(c, opaque_red, veil, mix->residual * 0.99));
+}
+
+TEST(UnmixVeil, SaysNothingWhereNothingCanBeTold) {
+    EXPECT_FALSE(unmix_veil(veil, 2.0 * veil, veil, 0.2));
+    EXPECT_FALSE(unmix_veil(opaque_red, opaque_red, veil, 0.2)); // not mixed
+    EXPECT_FALSE(unmix_veil(veil, opaque_red, veil, 0.2));
+    EXPECT_FALSE(unmix_veil(veil, opaque_red, Imath::V4d(0, 0, 0, 0), 0.2));
+    EXPECT_FALSE(
+        unmix_veil(0.5 * opaque_red + Imath::V4d(0, 0, 0.8, 0), opaque_red, veil, 0.2)); // another colour
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+        EXPECT_FALSE(unmix_veil(Imath::V4d(bad, 0, 0, 0.5), opaque_red, veil, 0.2));
+}
+
 } // namespace
 } // namespace sparselens

@@ -64,15 +64,25 @@ TEST(Silhouettes, MixedPixelsAreTakenApart) {
     }
 }
 
-// The same edge before a veil, which nothing separates: its pixels stay as they are.
-TEST(Silhouettes, VeilsBehindAnEdgeStay) {
-    const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
-        const float red = x < 8 ? 1 : x == 8 ? 0.6f : 0, green = (1 - red) * 0.3f;
-        return ViewPixel{.z = red >= 0.5f ? 2.f : 10.f, .r = red, .g = green, .a = red + green};
-    });
-    const Ldi ldi = separated(view);
-    expect_flattens_to(view, ldi);
-    EXPECT_EQ(ldi.samples(), 16u * 9);
+// The same edge before a veil whose density differs in every column.
+TEST(Silhouettes, VeilsBehindAnEdgeKeepTheirCoverage) {
+    const auto density = [](int x) { return 0.1f + 0.07f * float(x * 5 % 7); };
+    for (const float share : {0.25f, 0.6f}) {
+        const View view = make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int) {
+            const float red = x < 8 ? 1 : x == 8 ? share : 0, green = (1 - red) * density(x);
+            return ViewPixel{.z = red >= 0.5f ? 2.f : 10.f, .r = red, .g = green, .a = red + green};
+        });
+        const Ldi ldi = separated(view);
+        expect_flattens_to(view, ldi);
+        const std::uint64_t front = ldi.pixel(4 * 16 + 8).front();
+        ASSERT_EQ(ldi.pixel(4 * 16 + 8).size(), 2u);
+        EXPECT_FLOAT_EQ(ldi.z[front], 2);
+        EXPECT_FLOAT_EQ(ldi.z[front + 1], 10);
+        EXPECT_NEAR(ldi.values[3][front], share, 1e-6);
+        EXPECT_NEAR(ldi.values[1][front], 0, 1e-6);
+        EXPECT_NEAR(ldi.values[3][front + 1], density(8), 1e-6);
+        EXPECT_EQ(ldi.samples(), 16u * 9 + 9);
+    }
 }
 
 TEST(Silhouettes, TheSkyIsASurfaceToo) {
@@ -195,13 +205,16 @@ TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     EXPECT_NEAR(farther, 0.1 * 81, 1);
 }
 
-TEST(Silhouettes, PixelsOfPartialCoverageStay) {
+TEST(Silhouettes, WhatAMixedPixelLeavesOpenStaysOpen) {
     View view = edge(0.5f);
     for (int y = 0; y < 9; ++y)
         for (std::size_t k = 0; k < 4; ++k) view.image.at(k, 8, y) *= 0.9f;
     const Ldi ldi = separated(view);
     expect_flattens_to(view, ldi);
-    EXPECT_EQ(ldi.samples(), 16u * 9);
+    const std::uint64_t front = ldi.pixel(8).front();
+    ASSERT_EQ(ldi.pixel(8).size(), 2u);
+    EXPECT_NEAR(ldi.values[3][front], 0.45, 1e-6);
+    EXPECT_NEAR(ldi.values[3][front + 1], 0.45 / 0.55, 1e-6);
 }
 
 TEST(Silhouettes, FlattenedEveryPictureIsWhatItWas) {

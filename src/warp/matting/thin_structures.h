@@ -117,7 +117,7 @@ private:
 struct Mixture {
     double near_depth, far_depth; // disparity
     double share;                 // a, of the nearer surface; 0: all of the pixel belongs to the farther one
-    // B. The coefficients sum to 1. The nearer surface shows the rest of the pixel.
+    // B. The coefficients sum to 1, or to the density of a veil. The nearer surface shows the rest of the pixel.
     std::vector<Term> behind;
     std::optional<std::uint64_t> front = {}; // F, one sample; then the farther surface shows the rest
 };
