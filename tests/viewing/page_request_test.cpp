@@ -48,6 +48,7 @@ TEST(PageRequest, AnythingElseIsRefused) {
                              R"({"page": "a", "format": 1})",
                              R"({"page": "a", "frame": 1.5})",
                              R"({"page": "a", "frame": 3000000000})",
+                             R"({"page": "a", "frame": 18446744073709551615})", // -1 in 64 bits
                              R"({"page": "a", "pixel": [1]})",
                              R"({"page": "a", "pixel": [1.5, 2]})",
                              R"({"page": "a", "pixel": [1e300, 2]})",

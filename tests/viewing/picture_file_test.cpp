@@ -119,6 +119,7 @@ TEST(PipeRequest, IsParsedOrRefused) {
           R"({"ask": "tile", "file": "a"})", R"({"ask": "picture", "file": "a", "box": [0, 0, 1, 1]})",
           R"({"ask": "tile", "file": "a", "box": [1, 0, 0, 0]})",
           R"({"ask": "facts", "file": "a", "level": 4})", R"({"ask": "facts", "file": "a", "frame": 1.5})",
+          R"({"ask": "facts", "file": "a", "frame": 18446744073709551615})", // -1 in 64 bits
           R"({"ask": "facts", "file": "a", "channels": []})", R"({"ask": "facts", "file": "a\u0000b"})",
           R"({"ask": "facts", "file": "a", "other": 1})"})
         EXPECT_THROW(parse_pipe_request(wrong), UsageError) << wrong;

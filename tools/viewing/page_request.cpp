@@ -69,10 +69,7 @@ double exposure_of(const Json &value) {
     return value.get<double>();
 }
 
-bool is_whole(const Json &n) {
-    constexpr std::int64_t most = 1 << 30;
-    return n.is_number_integer() && n.get<std::int64_t>() >= -most && n.get<std::int64_t>() <= most;
-}
+bool is_whole(const Json &n) { return n.is_number_integer() && std::abs(n.get<double>()) <= 1 << 30; }
 
 int frame_of(const Json &value) {
     if (!is_whole(value)) refuse("frame is not a whole number");

@@ -34,7 +34,8 @@ const std::string &text_of(const Json &value, const char *name) {
 }
 
 int whole_number(const Json &value, const char *name, int least, int most) {
-    if (!value.is_number_integer() || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+    // Not as std::int64_t: a number beyond its range would become another one.
+    if (!value.is_number_integer() || value.get<double>() < least || value.get<double>() > most)
         refuse(fmt::format("{} is not a whole number from {} to {}", name, least, most));
     return value.get<int>();
 }
