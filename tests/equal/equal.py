@@ -251,12 +251,14 @@ class Bench:
         frames = FRAMES if inputs.through == "frames" else [""]
         made = [name if inputs.through != "frames" else name.replace(".", ".####.") for name in door.made]
         first, every, before, after = names["in"][0], sum(names.values(), []), "", ""
+        printed = "stdout"
         words = door.words(names, inputs, made)
         if inputs.through == "stdin":
-            words, after = ["-" if word in (first, made[0]) else word for word in words], f" <{shlex.quote(first)}"
+            printed = made[0] if made[0] != "keys.json" else "stdout"  # dof-match prints a table besides
+            words, after = ["-" if word in (first, printed) else word for word in words], f" <{shlex.quote(first)}"
         if inputs.through == "fifo":
             before = "".join(f"mv {q} {q}.bytes; mkfifo {q}; cat {q}.bytes >{q} & " for q in map(shlex.quote, every))
-        command = f"{before}{shlex.join(words)}{after} >{'stdout' if inputs.through != 'stdin' else shlex.quote(made[0])}"
+        command = f"{before}{shlex.join(words)}{after} >{shlex.quote(printed)}"
         if self.prints:
             print(f"cd {shlex.quote(str(folder))} && {command}", file=sys.stderr)
         ran = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=SECONDS, env=ENVIRONMENT)
@@ -551,7 +553,7 @@ NEVER = {
     "photo-exr": {"gather-photo-exr": "it is one"},
     "half": {"gather-ldi": "what ldi-warp writes are no halves", "gather-selective": "what ldi-warp writes are no halves", "gather-photo-exr": "its values are no halves", "cluster": "what ldi-warp writes are no halves"},
     "order": {"flat": "one file", "deep": "one file", "match": "one file", "photo": "one file", "compare": "one is the reference"},
-    "frames": {"compare": "measures the change between frames", "python": "the caller numbers its frames"},
+    "frames": {"compare": "measures the change between frames", "match": "one file of keys has all frames", "python": "the caller numbers its frames"},
     "mirrored": {"gather-photo-exr": "its depth is no EXR", "finish": "blocks of 32 pixels from the left tell how certain renders are"},
     "transposed": {"gather-photo-exr": "its depth is no EXR"},
     "light": {"finish-ask": "rays are asked for what a display shows"},
@@ -601,7 +603,7 @@ def largest(a, b, name):
 def difference(expected, got, change, around):
     if isinstance(expected, dict):
         factors = change.figures
-        names = [name for name in expected if not factors or name.split(".")[0] in factors]
+        names = [name for name in expected if name.split(".")[0] in factors] or list(expected)
         return max((largest(expected[n], got.get(n, numpy.nan) * factors.get(n.split(".")[0], 1), n) for n in names), key=lambda d: d[0])
     a, b = (on_canvas(p.only([n for n in p.channels if n not in change.without]), expected.display, around)
             for p in (expected, change.undo(got)))
