@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +25,7 @@ namespace {
 
 // The names of the files of one frame.
 struct FrameFiles {
-    std::optional<int> number;
+    FrameCount count;
     std::string ldi, plate, show;
 };
 
@@ -36,8 +37,8 @@ std::vector<FrameFiles> files_of(const MatchCommand &options, const ToolContext 
     std::vector<FrameFiles> files;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::vector<std::string> names = frames.words(i);
-        files.push_back({frames.is_range() ? std::optional(frames.number(i)) : std::nullopt, names[1],
-                         names[0], names[2]});
+        const auto number = frames.is_range() ? std::optional(frames.number(i)) : std::nullopt;
+        files.push_back({{i, frames.size(), number}, names[1], names[0], names[2]});
     }
     return files;
 }
@@ -48,10 +49,13 @@ public:
     Sequence(const MatchCommand &options, const ToolContext &tool) : options_(options), tool_(tool) {}
 
     const OpenedLdi &ldi(const FrameFiles &frame) {
-        if (frame.number) tool_.say(fmt::format("frame {}", *frame.number));
+        if (frame.count.number) tool_.say(fmt::format("frame {}", *frame.count.number));
         LdiRequest request = options_;
         request.input = frame.ldi;
         return cache_.load(request, tool_.notify());
+    }
+    std::unique_ptr<Progress> progress(const FrameFiles &frame) const {
+        return progress_of(options_.progress, tool_.tool_name, frame.count);
     }
     Image plate(const FrameFiles &frame) {
         if (is_shown_picture(frame.plate)) {
@@ -75,7 +79,8 @@ std::optional<MatchedShape> find_shape(Sequence &shot, const std::vector<FrameFi
                                        const MatchRequest &request, const ToolContext &tool) {
     for (const FrameFiles &frame : files) {
         const OpenedLdi &in = shot.ldi(frame);
-        if (const auto shape = match_shape(in, shot.plate(frame), frame.plate, request, *tool.progress))
+        if (const auto shape =
+                match_shape(in, shot.plate(frame), frame.plate, request, *shot.progress(frame)))
             return shape;
     }
     warn(tool, "the plates do not show the shape of the lens: it needs lamps or edges that are out of focus "
@@ -84,12 +89,12 @@ std::optional<MatchedShape> find_shape(Sequence &shot, const std::vector<FrameFi
 }
 
 // Matches the frames one after the other. Writes the pictures of their fits.
-MatchedFrames match_frames(Sequence &shot, const std::vector<FrameFiles> &files, const MatchRequest &request,
-                           const ToolContext &tool) {
+MatchedFrames match_frames(Sequence &shot, const std::vector<FrameFiles> &files,
+                           const MatchRequest &request) {
     FrameMatcher matcher(request);
     for (const FrameFiles &frame : files) {
         const OpenedLdi &in = shot.ldi(frame);
-        const Image fit = matcher.match(in, shot.plate(frame), frame.plate, *tool.progress);
+        const Image fit = matcher.match(in, shot.plate(frame), frame.plate, *shot.progress(frame));
         if (!frame.show.empty()) write_plain(frame.show, fit);
     }
     return matcher.smooth();
@@ -97,7 +102,7 @@ MatchedFrames match_frames(Sequence &shot, const std::vector<FrameFiles> &files,
 
 using Json = nlohmann::ordered_json;
 
-int key_of(const FrameFiles &files) { return files.number.value_or(1); }
+int key_of(const FrameFiles &files) { return files.count.number.value_or(1); }
 
 // The keys that options read (harness/commands/keys.h), and the intervals.
 Json keys_of(const std::vector<FrameFiles> &files, const std::vector<MatchedLens> &lenses,
@@ -143,14 +148,14 @@ void run(const MatchCommand &options, const ToolContext &tool) {
     std::optional<MatchedShape> shape;
     if (options.shape) shape = find_shape(shot, files, request, tool);
     if (shape) request = with_shape(request, *shape);
-    const auto &[lenses, warnings] = match_frames(shot, files, request, tool);
+    const auto &[lenses, warnings] = match_frames(shot, files, request);
     for (const std::string &text : warnings) warn(tool, text);
     Json lines;
     for (std::size_t i = 0; i < files.size(); ++i) {
         ToolContext of_frame;
         of_frame.tool_name = tool.tool_name;
         of_frame.stats = options.stats;
-        of_frame.frame = files[i].number;
+        of_frame.frame = files[i].count.number;
         write_stats(of_frame, as_json(lenses[i]));
         lines.push_back({{"frame", key_of(files[i])}});
         lines.back().update(as_json(lenses[i]));

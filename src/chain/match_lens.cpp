@@ -59,11 +59,30 @@ std::vector<LensFit> hills_of(const Comparison &pictures, std::vector<LensFit> f
     return hills;
 }
 
+// Shows how much of a match is done. Steps that are not needed are skipped.
+class Percent {
+public:
+    explicit Percent(Progress &progress) : progress_(progress) { progress_.start("matching", 100); }
+    std::size_t done() const { return done_; }
+    void reach(std::size_t percent) {
+        progress_.advance(percent - done_);
+        done_ = percent;
+    }
+
+private:
+    Progress &progress_;
+    std::size_t done_ = 0;
+};
+
+// `until`: the percentage that is reached with the last guess.
 std::vector<LensFit> refined(const Comparison &pictures, const KnownLens &known,
-                             const std::vector<BlurGuess> &guesses, int lenses, double reach_px) {
+                             const std::vector<BlurGuess> &guesses, int lenses, double reach_px,
+                             Percent &percent, std::size_t until) {
     std::vector<LensFit> fits;
-    for (const BlurGuess &guess : guesses)
+    for (const BlurGuess &guess : guesses) {
         fits.push_back(refine_lens(pictures, known, guess, lenses, reach_px));
+        percent.reach(percent.done() + (until - percent.done()) / (guesses.size() - fits.size() + 1));
+    }
     return hills_of(pictures, std::move(fits));
 }
 
@@ -116,7 +135,7 @@ bool shows_something(const Comparison &pictures) {
     return double(most - least) > MatchTuning::least_error;
 }
 
-Found best_fit(const Match &match, const Reduced &fine) {
+Found best_fit(const Match &match, const Reduced &fine, Percent &percent) {
     const KnownLens known = known_lens(match, fine);
     if (!shows_something(fine.pictures)) { // it would fit any lens
         LensFit any;
@@ -128,14 +147,16 @@ Found best_fit(const Match &match, const Reduced &fine) {
         return {next_fit(fine.pictures, known, guess_near(*near, fine))};
     const Reduced small(match, pieces_of(Grid(match.region).width(), MatchTuning::search_width), false);
     const KnownLens known_small = known_lens(match, small);
-    std::vector<BlurGuess> guesses =
-        guesses_of(refined(small.pictures, known_small, search_lens(small.pictures, known_small),
-                           MatchTuning::search_lenses, MatchTuning::search_reach_px));
+    std::vector<BlurGuess> guesses = search_lens(small.pictures, known_small);
+    percent.reach(20);
+    guesses = guesses_of(refined(small.pictures, known_small, guesses, MatchTuning::search_lenses,
+                                 MatchTuning::search_reach_px, percent, 40));
     // A few lenses show which of them are worth more.
     guesses = guesses_of(refined(fine.pictures, known, enlarged(guesses, double(small.by()) / fine.by()),
-                                 MatchTuning::first_lenses, reach));
+                                 MatchTuning::first_lenses, reach, percent, 60));
     guesses.resize(std::min(guesses.size(), MatchTuning::final_guesses));
-    std::vector<LensFit> fits = refined(fine.pictures, known, guesses, MatchTuning::final_lenses, reach);
+    std::vector<LensFit> fits =
+        refined(fine.pictures, known, guesses, MatchTuning::final_lenses, reach, percent, 90);
     const bool is_ambiguous = std::ranges::any_of(fits, [&](const LensFit &other) {
         return distance(fine.pictures, fits.front().guess, other.guess) > MatchTuning::apart_px &&
                lead(fits.front(), other) < MatchTuning::least_lead;
@@ -151,11 +172,10 @@ Found best_fit(const Match &match, const Reduced &fine) {
 MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::string &plate_name,
                        const MatchRequest &request, Progress &progress) {
     const Match match(in, plate, plate_name, request);
-    progress.start("matching", 2);
+    Percent percent(progress);
     const Reduced fine(match, pieces_of(Grid(match.region).width(), MatchTuning::final_width), true);
-    progress.advance();
-    const auto [fit, is_ambiguous] = best_fit(match, fine);
-    progress.advance();
+    percent.reach(5);
+    const auto [fit, is_ambiguous] = best_fit(match, fine, percent);
     MatchedLens result;
     set_values(result, match, fine, fit);
     set_intervals(result, stops_by_radius(match.camera));
@@ -163,6 +183,7 @@ MatchedLens match_lens(const OpenedLdi &in, const Image &plate, const std::strin
     result.matched_share = evidence.matched_share();
     result.doubt = doubt_of(result, fine, fit, evidence, is_ambiguous);
     result.fit = side_by_side(brightness(fit.shown), fine.pictures.plate);
+    percent.reach(100);
     return result;
 }
 

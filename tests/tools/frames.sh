@@ -211,6 +211,18 @@ progress plain 'ldi-plan: ([0-9]+)%' "$bin/ldi-plan" views/center.exr -o x.json
 exits 0 "${pull[@]}"
 [ ! -s stderr ] || fail "talks without being asked: $(cat stderr)"
 
+# On a terminal, once five seconds are over. The input comes late, so that nothing need take long.
+late() { # SECONDS NAME COMMAND...: what the command, which reads NAME.late, shows on a terminal is left in NAME.shown
+    mkfifo "$2.late"
+    { exec 3>"$2.late" && sleep "$1" && cat ldi.exr >&3; } & # from when the tool opens it
+    python3 -c 'import pty, sys; pty.spawn(sys.argv[1:])' "${@:3}" </dev/null >"$2.shown" &
+}
+late 5.5 gather "$gather" gather.late -o gather.exr
+late 5.5 none "$gather" none.late -o none.exr --progress none
+wait
+grep -q 'dof-gather: gathering 100%' gather.shown || fail "no progress on a terminal: $(cat gather.shown)"
+if grep '[0-9]%' none.shown; then fail "--progress none: $(cat none.shown)"; fi
+
 # Threads: --threads, else $CUE_THREADS, else all that the process may use.
 threads() { # NUMBER COMMAND...
     local number=$1

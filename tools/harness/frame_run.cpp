@@ -31,18 +31,6 @@ struct FrameOptions {
     ProgressFormat progress = ProgressFormat::terminal;
 };
 
-const std::map<std::string, ProgressFormat> &progress_formats() {
-    static const std::map<std::string, ProgressFormat> formats{
-        {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
-    return formats;
-}
-
-// The beginning of error messages, from words that are not parsed yet: a farm must understand errors in the words too.
-std::string prefix_of(const std::string &name, const std::vector<std::string> &words) {
-    const auto format = progress_formats().find(value_of("--progress", words));
-    return error_prefix(format == progress_formats().end() ? ProgressFormat::terminal : format->second, name);
-}
-
 void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_option(
            "--frames", options.frames,
@@ -58,12 +46,7 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_option("--stats", options.stats,
                    "File to which statistics are appended, one line of JSON per frame; - for stderr")
         ->type_name("FILE");
-    app.add_option("--progress", options.progress,
-                   "Print progress on stderr. plain: text; alf: for Tractor; openjd: for Open Job "
-                   "Description, with status and failures (default: none)")
-        ->type_name("plain|alf|openjd")
-        ->transform(words(progress_formats()))
-        ->group("Frames");
+    add_progress_option(app, options.progress);
 }
 
 void explain_all_pictures(CLI::App &app) {

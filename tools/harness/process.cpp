@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "harness/commands/frames.h"
 #include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
@@ -21,6 +22,7 @@
 #include <cstdlib>
 #include <exception>
 #include <locale>
+#include <map>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -121,6 +123,32 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
                    "and for the frames in work (default: a quarter of the machine's)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
+}
+
+namespace {
+
+const std::map<std::string, ProgressFormat> &progress_formats() {
+    static const std::map<std::string, ProgressFormat> formats{{"plain", ProgressFormat::plain},
+                                                               {"alf", ProgressFormat::alf},
+                                                               {"openjd", ProgressFormat::openjd},
+                                                               {"none", ProgressFormat::none}};
+    return formats;
+}
+
+} // namespace
+
+void add_progress_option(CLI::App &app, ProgressFormat &format) {
+    app.add_option("--progress", format,
+                   "Print progress on stderr. plain: text; alf: for Tractor; openjd: for Open Job "
+                   "Description, with status and failures (default: on a terminal after five seconds)")
+        ->type_name("plain|alf|openjd|none")
+        ->transform(words(progress_formats()))
+        ->group("Frames");
+}
+
+std::string prefix_of(const std::string &name, const std::vector<std::string> &words) {
+    const auto format = progress_formats().find(value_of("--progress", words));
+    return error_prefix(format == progress_formats().end() ? ProgressFormat::terminal : format->second, name);
 }
 
 // Reports all exceptions, because options also look at files and at what OpenImageIO writes.

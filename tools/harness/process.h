@@ -19,6 +19,12 @@ struct ProcessOptions {
 // Adds --version, -v, --threads and --max-memory.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 
+// Adds --progress.
+void add_progress_option(CLI::App &app, ProgressFormat &format);
+
+// The beginning of error messages, from words that are not parsed yet: a farm must understand errors in the words too.
+std::string prefix_of(const std::string &name, const std::vector<std::string> &words);
+
 // Parses the words. Returns nothing if there is work to do; else the exit code, after answering --help and the like or
 // reporting a usage error. `prefix` begins the message: "dof-gather: ", "dof-gather: frame 12: ".
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <mutex>
 
@@ -11,9 +12,13 @@ namespace sparselens {
 namespace {
 
 Progress::Listener terminal_listener(const std::string &tool_name) {
+    using Clock = std::chrono::steady_clock;
+    static const auto from = Clock::now() + std::chrono::seconds(5); // short work shows none
     if (!isatty(STDERR_FILENO)) return {};
     return [tool_name](const std::string &stage, int percent) {
-        fmt::print(stderr, "\r{}: {} {:3}%{}", tool_name, stage, percent, percent == 100 ? "\n" : "");
+        if (Clock::now() >= from)
+            fmt::print(stderr, "\r{}: {} {:3}%\x1b[K{}", tool_name, stage, percent,
+                       percent == 100 ? "\n" : "");
     };
 }
 
@@ -51,6 +56,7 @@ std::string progress_line(ProgressFormat format, const std::string &tool_name, i
     case ProgressFormat::alf: return fmt::format("ALF_PROGRESS {}%", percent);
     case ProgressFormat::openjd: return fmt::format("openjd_progress: {}", percent);
     case ProgressFormat::terminal:
+    case ProgressFormat::none:
     case ProgressFormat::plain: break;
     }
     return fmt::format("{}: {}%", tool_name, percent);
@@ -69,6 +75,7 @@ std::string error_prefix(ProgressFormat format, const std::string &tool_name) {
 
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name,
                                       FrameCount frames) {
+    if (format == ProgressFormat::none) return std::make_unique<Progress>();
     return std::make_unique<Progress>(format == ProgressFormat::terminal
                                           ? terminal_listener(tool_name)
                                           : farm_listener(format, tool_name, frames));

@@ -15,10 +15,11 @@
 namespace sparselens {
 
 enum class ProgressFormat {
-    terminal, // one line that is overwritten, if stderr is a terminal
-    plain,    // "dof-gather: 42%"
-    alf,      // "ALF_PROGRESS 42%": Tractor's Alfred directive
-    openjd,   // "openjd_progress: 42" and "openjd_status: ...": Open Job Description
+    terminal, // one line that is overwritten, if stderr is a terminal, from 5 s after the start on
+    none,
+    plain,  // "dof-gather: 42%"
+    alf,    // "ALF_PROGRESS 42%": Tractor's Alfred directive
+    openjd, // "openjd_progress: 42" and "openjd_status: ...": Open Job Description
 };
 
 // The number of finished frames, the number of all frames, and the number of the current frame in a range.

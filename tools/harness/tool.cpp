@@ -70,7 +70,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const Work &work) {
 int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work) {
     ProcessOptions options;
     add_process_options(app, options);
-    const std::string prefix = error_prefix(ProgressFormat::terminal, app.get_name());
+    const std::string prefix = prefix_of(app.get_name(), words);
     if (const auto code = parse_words(app, words, prefix)) return *code;
     ToolContext tool;
     tool.tool_name = app.get_name();

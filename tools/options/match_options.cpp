@@ -1,6 +1,7 @@
 #include "options/match_options.h"
 
 #include "chain/parameter_rows.h"
+#include "harness/process.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
 
@@ -42,6 +43,7 @@ void add_file_options(CLI::App &app, MatchCommand &options) {
     app.add_option("--stats", options.stats,
                    "File to which statistics are appended, one line of JSON per frame; - for stderr")
         ->type_name("FILE");
+    add_progress_option(app, options.progress);
 }
 
 } // namespace

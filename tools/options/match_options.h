@@ -4,6 +4,7 @@
 #include "chain/gather_windows.h"
 #include "chain/match_lens.h"
 #include "harness/commands/cli.h"
+#include "harness/progress_lines.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@ namespace sparselens {
 struct MatchCommand : LdiRequest { // with the options that say how to read the LDI
     std::string plate, output, show, frames, stats;
     bool json = false, shape = false;
+    ProgressFormat progress = ProgressFormat::terminal;
     MatchRequest match;
 };
 
