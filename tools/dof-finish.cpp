@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -32,10 +33,28 @@ FlatFile read(const std::string &path, const FinishCommand &options, const ToolC
     return file;
 }
 
+// The file of a word FILE@X,Y, and where the corner of a picture lies that was cropped to a rectangle.
+std::pair<std::string, std::optional<Imath::V2i>> place_of(const std::string &word) {
+    const std::size_t end = word.rfind('@');
+    Imath::V2i at;
+    int read = 0;
+    if (end == std::string::npos || std::sscanf(word.c_str() + end, "@%d,%d%n", &at.x, &at.y, &read) != 2 ||
+        end + std::size_t(read) != word.size())
+        return {word, {}};
+    return {word.substr(0, end), at};
+}
+
 // A render, with colours in the space of the gathered picture.
-FlatFile read_render(const std::string &path, const FlatFile &gathered, const FinishCommand &options,
+FlatFile read_render(const std::string &word, const FlatFile &gathered, const FinishCommand &options,
                      const ToolContext &tool) {
+    const auto [path, place] = place_of(word);
     FlatFile file = read(path, options, tool);
+    Windows &windows = file.image.windows;
+    if (place) {
+        const Imath::V2i by = *place - windows.display.min;
+        windows.data = {windows.data.min + by, windows.data.max + by};
+        windows.display = gathered.image.windows.display;
+    }
     to_space_of(tool.notify(), options.colour, {gathered.header, options.gathered}, {file.header, path},
                 file.image);
     return file;
@@ -45,21 +64,38 @@ FlatFile read_render(const std::string &path, const FlatFile &gathered, const Fi
 std::vector<double> stated_samples(const FinishCommand &options, const ToolContext &tool) {
     std::vector<double> samples;
     for (const std::string &path : options.renders)
-        if (const auto stated = path == "-" ? std::nullopt : render_samples(read_flat_header(path)))
+        if (const auto stated =
+                path == "-" ? std::nullopt : render_samples(read_flat_header(place_of(path).first)))
             samples.push_back(*stated);
     if (samples.size() == options.renders.size()) return samples;
     tool.say("the renders do not say how many samples they have: all count the same");
     return std::vector<double>(options.renders.size(), 1);
 }
 
+// Puts the colours of Cycles' layer Noisy Image in the place of the denoised ones; false if it has none.
+bool take_noisy(Image &image) {
+    for (const std::string name : rgb_names) {
+        const auto noisy = std::ranges::find_if(image.channels, [&](const Channel &channel) {
+            return channel.name.ends_with("Noisy Image." + name);
+        });
+        const std::size_t denoised = find_channel(image.channels, name);
+        if (noisy == image.channels.end() || denoised == npos) return false;
+        std::ranges::copy(image.plane(std::size_t(noisy - image.channels.begin())),
+                          image.plane(denoised).begin());
+    }
+    return true;
+}
+
 // Adds the renders one after the other, so that only their sum stays in memory. `add` is TwoHalves::add or add_noisy.
+// Sets `have_noisy` if a file has noisy colours beside denoised ones.
 TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
                    const FlatFile &gathered, const FinishCommand &options, const ToolContext &tool,
-                   void (TwoHalves::*add)(const Render &)) {
+                   void (TwoHalves::*add)(const Render &), bool *have_noisy = nullptr) {
     TwoHalves halves(gathered.image);
     for (std::size_t k = 0; k < paths.size(); ++k) {
         FlatFile file = read_render(paths[k], gathered, options, tool);
         notify_other_lens(tool.notify(), gathered.header, file.header, paths[k]);
+        if (add == &TwoHalves::add_noisy && take_noisy(file.image) && have_noisy) *have_noisy = true;
         (halves.*add)({paths[k], std::move(file.image), samples[k]});
     }
     return halves;
@@ -125,7 +161,7 @@ Stats say_error(const FinishCommand &options, const FinishedPicture &finished, c
     for (const float share : finished.kept) kept += double(share);
     stats["kept"] = kept / double(finished.kept.size());
     tool.say(known ? fmt::format("estimated error: {:.2f} dB", *known)
-                   : std::string("the error is too small for these renders to tell"));
+                   : std::string("these renders cannot tell the error: give more samples"));
     if (!options.goal) return stats;
     const auto times = times_the_rays(error, finished.samples.mean, *options.goal);
     stats["times_the_rays"] = times ? Stats(*times) : Stats(nullptr);
@@ -164,10 +200,12 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     FlatFile file = read(options.gathered, options, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;
-    PictureToFinish picture{{},
-                            added_up(options.renders, samples, file, options, tool, &TwoHalves::add_noisy)};
-    if (!options.denoised.empty())
-        picture.denoised.push_back(added_up(options.denoised, samples, file, options, tool, &TwoHalves::add));
+    bool have_noisy = false;
+    PictureToFinish picture{
+        {}, added_up(options.renders, samples, file, options, tool, &TwoHalves::add_noisy, &have_noisy)};
+    const auto &denoised = options.denoised.empty() && have_noisy ? options.renders : options.denoised;
+    if (!denoised.empty())
+        picture.denoised.push_back(added_up(denoised, samples, file, options, tool, &TwoHalves::add));
     for (const std::string &path : options.others)
         picture.others.push_back(read_render(path, file, options, tool).image);
     if (options.neighbours > 0) picture.around = read_around(options, samples, file, tool);

@@ -28,8 +28,8 @@ struct Plan {
     double fall, scale;
 
     double needed(const Part &part) const { // rays per pixel
-        return std::max(part.samples / part.pixels,
-                        scale * std::pow(part.error / part.pixels, 1 / (1 + fall)));
+        const double best = scale * std::pow(part.error / part.pixels, 1 / (1 + fall));
+        return std::max(part.samples / part.pixels, std::min(best, FinishTuning::most_rays));
     }
     double error(const Part &part) const { return part.error * std::pow(needed(part), -fall); }
     // The error, plus a price for each ray. needed() makes this least.

@@ -27,8 +27,8 @@ bool is_usable(float value) { return std::abs(value) <= largest; } // false for 
 
 bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
 
-// The values of a channel over the pixels of `windows`; `nothing` outside its data window.
-Values over(const Image &image, std::size_t channel, const Windows &windows) {
+// The values of a channel over the pixels of `windows`; `nothing` outside of `box`, a part of its data window.
+Values over(const Image &image, std::size_t channel, const Windows &windows, const Imath::Box2i &box) {
     const Grid grid = windows.grid(), own = image.windows.grid();
     const std::span<const float> plane = image.plane(channel);
     Values values(grid.size());
@@ -36,19 +36,19 @@ Values over(const Image &image, std::size_t channel, const Windows &windows) {
         for (int x = 0; x < grid.width(); ++x) {
             const Imath::V2i at = windows.data.min + Imath::V2i(x, int(row));
             values[row * std::size_t(grid.width()) + std::size_t(x)] =
-                own.contains(at.x, at.y) ? plane[own.index(at.x, at.y)] : nothing;
+                box.intersects(at) ? plane[own.index(at.x, at.y)] : nothing;
         }
     });
     return values;
 }
 
 // How many samples each pixel of a render has, as its channel of counts tells.
-Values counts_of(const Render &render, const Windows &windows) {
+Values counts_of(const Render &render, const Windows &windows, const Imath::Box2i &box) {
     for (std::size_t c = 0; c < render.image.channels.size(); ++c) {
         const std::string name = lower_case(render.image.channels[c].name);
         const bool part = name.ends_with("debug sample count.x");
         if (!part && name != "samples" && name != "samplecount") continue;
-        Values counts = over(render.image, c, windows);
+        Values counts = over(render.image, c, windows, box);
         if (part)
             for (float &count : counts) count *= float(render.samples);
         return counts;
@@ -58,7 +58,9 @@ Values counts_of(const Render &render, const Windows &windows) {
 
 void check_window(const Render &render, const Windows &windows) {
     const Windows &own = render.image.windows;
-    if (own.display != windows.display)
+    const bool is_part =
+        common_box(own.display, windows.display) == own.display && own.display.min != windows.display.min;
+    if (own.display != windows.display && !is_part)
         throw Error(
             fmt::format("{}: its picture is {}, the gathered one {}: render both with the same camera and "
                         "size",
@@ -112,7 +114,7 @@ Colours of_other(const PictureToFinish &picture, const Image &other,
     for (const std::size_t c : channels) {
         const std::size_t from = find_channel(other.channels, picture.gathered.channels[c].name);
         if (from == npos) return {};
-        colours.push_back(over(other, from, picture.gathered.windows));
+        colours.push_back(over(other, from, picture.gathered.windows, other.windows.data));
     }
     return colours;
 }
@@ -170,6 +172,26 @@ TwoHalves::TwoHalves(const Image &gathered)
     for (std::size_t c = 0; c < channels_.size(); ++c) has_[c] = is_finished(channels_[c]);
     for (auto &half : sums_) half.resize(channels_.size());
     for (Values &counts : counts_) counts.assign(windows_.grid().size(), 0.0f);
+    lit_.resize(windows_.grid().size());
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+        for (std::size_t i = 0; has_[c] && i < lit_.size(); ++i)
+            lit_[i] = lit_[i] || gathered.plane(c)[i] != 0;
+}
+
+Imath::Box2i TwoHalves::shown(const Image &image) const {
+    const Grid own = image.windows.grid();
+    Imath::Box2i box;
+    for (std::size_t i = 0; i < own.size(); ++i)
+        for (std::size_t c = 0; c < image.channels.size(); ++c)
+            if (image.plane(c)[i] != 0) {
+                box.extendBy(own.pixel(i));
+                break;
+            }
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+        const Imath::V2i at = windows_.pixel(i);
+        if (lit_[i] && own.contains(at.x, at.y) && !box.intersects(at)) return box;
+    }
+    return image.windows.data;
 }
 
 bool TwoHalves::complete() const {
@@ -203,13 +225,14 @@ RayCounts TwoHalves::samples() const {
 
 void TwoHalves::add(const Render &render) {
     check_window(render, windows_);
-    Values counts = counts_of(render, windows_);
+    const Imath::Box2i box = shown(render.image);
+    Values counts = counts_of(render, windows_, box);
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!has_[c]) continue;
         const std::size_t from = find_channel(render.image.channels, channels_[c].name);
         has_[c] = from != npos;
         if (!has_[c]) continue;
-        const Values values = over(render.image, from, windows_);
+        const Values values = over(render.image, from, windows_, box);
         for (std::size_t i = 0; i < values.size(); ++i)
             if (!is_usable(values[i])) counts[i] = 0;
     }
@@ -222,7 +245,7 @@ void TwoHalves::add(const Render &render) {
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!has_[c]) continue;
         const Values values =
-            over(render.image, find_channel(render.image.channels, channels_[c].name), windows_);
+            over(render.image, find_channel(render.image.channels, channels_[c].name), windows_, box);
         Values &sum = sums_[half][c];
         if (sum.empty()) sum.assign(values.size(), nothing);
         for (std::size_t i = 0; i < sum.size(); ++i) {
@@ -236,8 +259,9 @@ void TwoHalves::add(const Render &render) {
 void TwoHalves::add_noisy(const Render &render) {
     check_window(render, windows_);
     if (const std::size_t from = find_channel(render.image.channels, rgb_names[1]); from != npos) {
-        const Values values = over(render.image, from, windows_);
-        Noisy own{render.name, {values.begin(), values.end()}, render.samples, render.image.windows.data};
+        const Imath::Box2i box = shown(render.image);
+        const Values values = over(render.image, from, windows_, box);
+        Noisy own{render.name, {values.begin(), values.end()}, render.samples, box};
         for (const Noisy &other : noisy_)
             if (own.window.intersects(other.window)) compare(other, own);
         noisy_.push_back(std::move(own));
@@ -275,7 +299,9 @@ std::array<Values, 2> TwoHalves::take(std::size_t channel) {
 
 FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
     if (!picture.rays.complete())
-        throw Error("the noise of a single render is unknown: give two or more with different seeds");
+        throw Error(
+            "no pixel has two renders: give two or more with different seeds, whose values are at most "
+            "1e8");
     FinishedPicture finished;
     const auto colours = find_rgb(picture.gathered.channels);
     if (!all_found(colours) ||

@@ -25,7 +25,7 @@ namespace sparselens {
 // for n and m samples. No term squares the noise of one render, so fireflies do not dominate.
 struct ErrorEstimate {
     Values map;                    // mean squared error around each pixel, tone-mapped (light.h), at least 0
-    double mean = 0;               // of the picture; negative if it is too small to be measured
+    double mean = 0;               // of the picture; by chance negative if these renders cannot tell it
     double standard_deviation = 0; // of the mean
     double of_one = 0;             // the mean for pictures made of only one of the renders
 };
@@ -53,7 +53,9 @@ struct Render {
 };
 
 // Two or more independent renders through the same lens, added up to two halves: each is added to the half that has
-// fewer samples in its pixels. Pixels outside of its data window, and pixels with a value that is not finite or beyond
+// fewer samples in its pixels. A render may be a part: its display window lies within that of the gathered picture, its
+// data window is smaller, or it has zeros in all channels around a rectangle, where the gathered picture has something,
+// as a render of a border in Blender. Pixels outside of it, and pixels with a value that is not finite or beyond
 // 1e8, are left out. Pixels that a half lacks stay as gathered.
 class TwoHalves {
 public:
@@ -80,12 +82,14 @@ private:
         double samples;
         Imath::Box2i window;
     };
+    Imath::Box2i shown(const Image &image) const; // the pixels that a render shows
     void compare(const Noisy &one, const Noisy &two);
     bool has_both(std::size_t i) const { return counts_[0][i] > 0 && counts_[1][i] > 0; }
 
     Windows windows_;
     std::vector<Channel> channels_;
     std::vector<half> gathered_green_;
+    std::vector<bool> lit_;                   // the pixels in which the gathered picture has something
     std::array<std::vector<Values>, 2> sums_; // by channel of the gathered picture; empty: not finished
     std::vector<bool> has_;
     std::array<Values, 2> counts_; // samples of each pixel

@@ -100,9 +100,22 @@ Told fitted(const std::vector<Sums> &blocks, Change change) {
 }
 
 // The amount of the change if the renders agree on it; empty if they do not, if it is small, or if it explains little.
+// Few rays miss lamps in most blocks, which then agree that there is less light. So all blocks together must show half
+// of the change, too, and clearly.
 std::optional<double> told(const std::vector<Sums> &blocks, Change change, double least) {
     const Told found = fitted(blocks, change);
     const double mean = found.mean();
+    const auto product = [&](const Sums &block) {
+        return (block.fits[change].product[0] + block.fits[change].product[1]) / 2;
+    };
+    double products = 0, squares = 0, variance = 0;
+    for (const Sums &block : blocks) products += product(block), squares += block.fits[change].square;
+    for (const Sums &block : blocks) {
+        const double left = product(block) - block.fits[change].square * products / squares;
+        variance += left * left;
+    }
+    const double deviations = FinishTuning::proof_deviations;
+    if (products / mean < squares / 2 || products * products < deviations * deviations * variance) return {};
     const bool agreed =
         std::abs(found.amounts[0] - found.amounts[1]) < FinishTuning::mistake_disagreement * std::abs(mean);
     if (!agreed || std::abs(mean) < least || found.share < FinishTuning::mistake_share) return {};

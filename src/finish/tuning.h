@@ -105,6 +105,8 @@ struct FinishTuning {
     static constexpr int ask_block_px = 8;
     static constexpr std::size_t most_pieces = 16;
     static constexpr double least_saving = 1e-3;
+    // More rays are asked for nowhere.
+    static constexpr double most_rays = 1e6;
     // Darker values count as this dark when an error is judged on a display, because its tone curve has no slope at 0.
     static constexpr float darkest = 0.003f;
 };

@@ -72,6 +72,18 @@ TEST(AskRays, SlowFallsTakeMore) {
     expect_asked(ask_rays(error, std::array<double, 2>{5, 5}, grid, 50), 70, 10);
 }
 
+// Whatever is wished, no pixel is asked for more than a renderer takes.
+TEST(AskRays, CountsAreLimited) {
+    const ErrorEstimate error = error_of(split(64e-5f, 4e-5f));
+    const std::array<double, 2> samples{10, 10};
+    for (const AskedRays &asked :
+         {ask_rays(error, samples, grid, 1e12), ask_rays(error, samples, grid, 0, 1e-200)}) {
+        for (const float more : asked.more) ASSERT_EQ(more, 1e6f - 20);
+        ASSERT_EQ(asked.rectangles.size(), 1u);
+        EXPECT_EQ(asked.rectangles[0], std::pair(grid.box(), 1000000 - 20));
+    }
+}
+
 TEST(AskRays, FewRectanglesApartCostAsMuch) {
     const Grid large(200, 120);
     Values map(large.size(), 1e-6f);

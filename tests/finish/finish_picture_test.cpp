@@ -128,6 +128,59 @@ TEST(TwoHalves, PartsWithoutNoiseCannotTell) {
     halves.add_noisy(part);
 }
 
+// Blender's render of a border has zeros around it, or a display window of its own.
+TEST(TwoHalves, BordersAreParts) {
+    const Imath::Box2i border({10, 6}, {40, 30});
+    const Image gathered = picture_of(truth);
+    const auto added = [&](std::uint32_t first, const auto &change) {
+        TwoHalves halves(gathered);
+        for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+            Render noisy = render(seed);
+            if (seed >= first) change(noisy.image);
+            halves.add_noisy(noisy);
+        }
+        return halves;
+    };
+    const auto cropped = [&](Image &image) { image = crop(image, border); };
+    const auto blackened = [&](Image &image) {
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            if (!border.intersects(grid.pixel(i)))
+                for (std::size_t c = 0; c < 4; ++c) image.plane(c)[i] = 0;
+    };
+    const auto apart = [&](Image &image) {
+        image = crop(image, border);
+        image.windows.display = border;
+    };
+    for (const std::uint32_t first : {1u, 3u}) {
+        TwoHalves expected = added(first, cropped);
+        const std::array<Values, 2> planes = expected.take(1);
+        for (TwoHalves halves : {added(first, blackened), added(first, apart)}) {
+            EXPECT_EQ(halves.missing(), first == 1 ? grid.size() - Grid(border).size() : 0);
+            EXPECT_EQ(halves.samples().by_pixel, expected.samples().by_pixel);
+            const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+            const auto found = halves.take(1);
+            for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE(std::ranges::equal(found[k], planes[k], same));
+        }
+    }
+}
+
+// Zeros around an element, where the gathered picture has nothing, are rendered; a black picture is.
+TEST(TwoHalves, NothingAroundAnElementIsRendered) {
+    const Imath::Box2i element({10, 6}, {40, 30});
+    for (const bool black : {false, true}) {
+        Image gathered = picture_of(truth);
+        Render first = render(1), second = render(2);
+        for (Image *image : {&gathered, &first.image, &second.image})
+            for (std::size_t i = 0; i < grid.size(); ++i)
+                if (black || !element.intersects(grid.pixel(i)))
+                    for (std::size_t c = 0; c < 4; ++c) image->plane(c)[i] = 0;
+        TwoHalves halves(gathered);
+        halves.add_noisy(first);
+        halves.add_noisy(second);
+        EXPECT_EQ(halves.missing(), 0u);
+    }
+}
+
 TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
     TwoHalves halves(picture_of(truth));
     const auto refused = [&](const std::string &named, const auto &change) {

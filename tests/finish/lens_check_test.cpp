@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace sparselens {
 namespace {
@@ -70,6 +71,30 @@ TEST(LensCheck, LightThatTheGatheredPictureLacksIsNoExposure) {
         if (const Imath::V2i at = grid.pixel(i); at.x < 40 && at.y < 60)
             for (Values &channel : bright) channel[i] *= 3;
     EXPECT_EQ(check_lens(layer_of(grid, bright, truth, {16, 16})).warnings(), std::vector<std::string>());
+}
+
+// Discs of lamps: one ray of a thousand hits them, so that most pixels of few rays show none.
+TEST(LensCheck, LampsThatFewRaysMissAreNoExposure) {
+    for (const double samples : {4.0, 8.0, 16.0, 32.0, 256.0}) {
+        LayerToFinish layer = layer_of(grid, truth, truth, {samples, samples});
+        for (Colours *colours : {&layer.gathered, &layer.rays[0], &layer.rays[1]})
+            for (Values &channel : *colours)
+                for (float &v : channel) v *= 0.05f;
+        std::mt19937 random(7);
+        std::poisson_distribution<int> hits(samples / 1000);
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+            if ((grid.pixel(i).x / 40 + grid.pixel(i).y / 30) % 2 == 0) continue;
+            for (Values &channel : layer.gathered) channel[i] += 0.4f;
+            for (Colours &rays : layer.rays) {
+                const float light = 0.4f * 1000 / float(samples) * float(hits(random));
+                for (Values &channel : rays) channel[i] += light;
+            }
+        }
+        EXPECT_EQ(check_lens(layer).warnings(), std::vector<std::string>()) << samples;
+        for (Values &channel : layer.gathered)
+            for (float &v : channel) v *= 2;
+        EXPECT_TRUE(check_lens(layer).brightness) << samples;
+    }
 }
 
 // Each lamp of the gathered picture lacks a pixel at its right.

@@ -95,8 +95,37 @@ for k in 1 2; do
 done
 exits 0 "$finish" gathered.exr counted_1.exr counted_2.exr -o counted.exr --samples 7,3
 same counted.exr out.exr "a channel of samples comes before --samples"
+# Renders of a border: black around it, or cropped to a display window of their own that may tell where it lies.
+read -r x y width height _ < <(grep -v '^0,0,' asked | tr , ' ')
+whole=() black=() placed=() within=()
+for k in 1 2; do
+    oiiotool dear/rays_$k.exr --crop "${width}x$height+$x+$y" -o border.exr
+    whole+=(border_$k.exr) && cp border.exr border_$k.exr
+    oiiotool border.exr --crop 160x90+0+0 -d float -o black_$k.exr && black+=(black_$k.exr)
+    oiiotool border.exr --origin +0+0 --fullsize "${width}x$height+0+0" -o placed_$k.exr && placed+=("placed_$k.exr@$x,$y")
+    oiiotool border.exr --fullsize "${width}x$height+$x+$y" -o within_$k.exr && within+=(within_$k.exr)
+done
+exits 0 "$finish" gathered.exr $one $two "${whole[@]}" -o border.exr --samples 40,40,200,200
+for way in "${black[*]}" "${placed[*]}" "${within[*]}"; do
+    # shellcheck disable=SC2086
+    exits 0 "$finish" gathered.exr $one $two $way -o again.exr --samples 40,40,200,200
+    cmp -s border.exr again.exr || fail "not the border's picture: $way"
+done
+fails_saying 1 'placed_1.exr: its picture is .*: render both with the same camera and size' "$finish" gathered.exr $one $two placed_1.exr -o x.exr
+
+# Cycles' noisy colours beside denoised ones.
+for k in 1 2; do
+    oiiotool "fence/rays_$k.exr" --ch R,G,B,A --median 5x5 --chnames R,G,B,A -o median.exr
+    oiiotool median.exr fence/rays_$k.exr --ch R,G,B --chnames 'Noisy Image.R,Noisy Image.G,Noisy Image.B' --chappend -d float -o cycles_$k.exr
+    oiiotool median.exr -d float -o median_$k.exr
+done
+exits 0 "$finish" gathered.exr $one $two --denoised median_1.exr median_2.exr -o denoised.exr
+exits 0 "$finish" gathered.exr cycles_1.exr cycles_2.exr --samples 40,40 -o again.exr
+same again.exr denoised.exr "Noisy Image"
 fails_saying 2 '--ask.*give --rays or --goal' "$finish" gathered.exr $one $two -o x.exr --ask mask.exr
 fails_saying 2 '--rays.*--ask' "$finish" gathered.exr $one $two -o x.exr --rays 160
+fails_saying 2 '--rays' "$finish" gathered.exr $one $two -o x.exr --ask mask.exr --rays 1e12
+fails_saying 2 "--ask.*must end in .exr, not 'mask.png'" "$finish" gathered.exr $one $two -o x.exr --ask mask.png --rays 160
 fails_saying 2 '--rays 80: the renders have 80 already' "$finish" gathered.exr $one $two -o x.exr --ask mask.exr --rays 80
 
 # Frames, pipes, pictures for the screen, types, file names.

@@ -1,5 +1,6 @@
 #include "options/finish_options.h"
 
+#include "finish/tuning.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
 
@@ -15,6 +16,8 @@ namespace {
 void check(const FinishCommand &options) {
     if (!options.ask.empty() && options.rays == 0 && !options.goal)
         throw CLI::ValidationError("--ask", "needs to know how many rays: give --rays or --goal");
+    if (!options.ask.empty() && !options.ask.ends_with(".exr"))
+        throw CLI::ValidationError("--ask", "must end in .exr, not '" + options.ask + "'");
     if (!options.samples.empty() && options.samples.size() != options.renders.size())
         throw CLI::ValidationError("--samples", fmt::format("{} numbers for {} renders: give one for each",
                                                             options.samples.size(), options.renders.size()));
@@ -30,7 +33,9 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
         ->required();
     app.add_option("RAYS", options.renders,
                    "Two or more renders of the picture with depth of field, with the same camera and lens "
-                   "and different seeds")
+                   "and different seeds; FILE@X,Y for one that is cropped to a rectangle and does not tell "
+                   "where it lies, as Blender's are. Colours of Cycles' layer Noisy Image come before "
+                   "denoised ones, which then count as --denoised")
         ->type_name("...")
         ->required();
     app.add_option("--samples", options.samples,
@@ -79,12 +84,14 @@ void add_finish_options(CLI::App &app, FinishCommand &options) {
                "Also write how many more samples each pixel needs, and print a few rectangles to render with "
                "about as many: X,Y,WIDTH,HEIGHT SAMPLES, the samples of two renders together")
             ->type_name("MASK.exr");
+    constexpr NumberRange possible{"a number above 0, of a million at most",
+                                   [](double v) { return v > 0 && v <= FinishTuning::most_rays; }};
     app.add_option(
            "--rays", options.rays,
            "Mean rays per pixel for --ask, including those of the renders (default: as many as --goal takes)")
         ->type_name("N")
         ->needs(ask)
-        ->check(number(above_0));
+        ->check(number(possible));
     add_parameters(app, output_colour_parameters(), options.colour);
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
