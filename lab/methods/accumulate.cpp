@@ -90,7 +90,7 @@ void add_rows(const Plane &plane, const AxisMove &across, const AxisMove &down, 
     for (int y = begin; y < end; ++y) {
         integrate_row(plane, y + down.whole + 1, down.part, below);
         moved_row(plane, y + down.whole, above, below, across.begin + across.whole, line);
-        add_moved_along_x(line, across.part, integrals, sums + target.index(across.begin, y));
+        add_moved_along_x(line, across.part, integrals, sums + target.index(Imath::V2i(across.begin, y)));
         std::swap(above, below);
     }
 }
@@ -99,7 +99,7 @@ void take_ids(const Image &view, std::size_t channel, const Windows &target, dou
     for (int y = target.data.min.y; y <= target.data.max.y; ++y)
         for (int x = target.data.min.x; x <= target.data.max.x; ++x)
             if (view.windows.data.intersects(Imath::V2i(x, y)))
-                ids[target.index(x, y)] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
+                ids[target.index(Imath::V2i(x, y))] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
 }
 
 // Adds the id and coverage pairs of row y of the target, weighted by the areas of the view's pixels that its pixels
@@ -116,8 +116,8 @@ void add_mattes(const Image &view, const AxisMove &across, const AxisMove &down,
                 const int u = std::clamp(x + across.whole + right, from.min.x, from.max.x),
                           v = std::clamp(y + down.whole + below, from.min.y, from.max.y);
                 for (const Matte::Rank &rank : matte.ranks)
-                    own->pixels[to.windows.index(x, y)].add(view.at(rank.id, u, v),
-                                                            area * double(view.at(rank.coverage, u, v)));
+                    own->pixels[to.windows.index(Imath::V2i(x, y))].add(
+                        view.at(rank.id, u, v), area * double(view.at(rank.coverage, u, v)));
             }
     }
 }
@@ -188,7 +188,8 @@ void accumulate(Accumulation &accumulation, const Image &view, const Imath::V2d 
         for (int y = top; y < bottom && !accumulation.mattes.empty(); ++y)
             add_mattes(view, across, down, y, accumulation);
         for (int y = top; y < bottom; ++y)
-            for (int x = across.begin; x < across.end; ++x) ++accumulation.covered[target.index(x, y)];
+            for (int x = across.begin; x < across.end; ++x)
+                ++accumulation.covered[target.index(Imath::V2i(x, y))];
     });
     for (std::size_t k = 0; first && k < channels.size(); ++k)
         if (accumulation.channels[k].type == PixelType::uint32)

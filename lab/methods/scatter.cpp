@@ -49,7 +49,7 @@ std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const s
             for (int x = touched.min.x; x <= touched.max.x; ++x) {
                 const double weight = psf_weight(psf, x, y);
                 if (weight == 0) continue;
-                fragments[grid.index(x, y)].push_back({splats[i].bin, weight, i});
+                fragments[grid.index(Imath::V2i(x, y))].push_back({splats[i].bin, weight, i});
             }
     }
     return fragments;

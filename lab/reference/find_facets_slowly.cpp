@@ -27,7 +27,7 @@ public:
     std::vector<Opaque> opaque_in(const Imath::V2i &pixel) const {
         std::vector<Opaque> found;
         if (!ldi_.windows.data.intersects(pixel)) return found;
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel)))
             if (alpha_at(ldi_, ldi_.alpha(), i) >= 0.9995f)
                 found.push_back({pixel, i, float(disparity(lens_, 1)) / ldi_.z[i]});
         return found;

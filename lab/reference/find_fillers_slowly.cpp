@@ -39,7 +39,7 @@ public:
         if (sides.empty()) return {};
         const Side first = *std::ranges::min_element(sides, fills_before);
         if (first.ground.sample && holds(pixel, first.ground.depth)) return {};
-        Filler filler{std::uint32_t(ldi_.windows.index(pixel.x, pixel.y)), z_of(first.ground), 0, {}};
+        Filler filler{std::uint32_t(ldi_.windows.index(pixel)), z_of(first.ground), 0, {}};
         double weights = 0;
         for (const Side &side : sides) {
             if (side.ground.sample.has_value() != first.ground.sample.has_value()) continue;
@@ -47,8 +47,7 @@ public:
             const double weight = 1.0 / side.distance;
             filler.part[filler.count++] = {
                 side.shown.sample ? std::uint32_t(*side.shown.sample) : Filler::nothing,
-                std::uint32_t(ldi_.windows.index(side.shown.pixel.x, side.shown.pixel.y)),
-                float(weight / coverage(side.shown))};
+                std::uint32_t(ldi_.windows.index(side.shown.pixel)), float(weight / coverage(side.shown))};
             weights += weight;
         }
         for (Filler::Part &part : filler.part) part.share /= float(weights);
@@ -57,7 +56,7 @@ public:
 
 private:
     bool holds(const Imath::V2i &pixel, double depth) const {
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel)))
             if (std::abs(disparity(lens_, double(ldi_.z[i])) - depth) < one_surface_px) return true;
         return false;
     }
@@ -77,7 +76,7 @@ private:
         if (!ldi_.windows.data.intersects(pixel)) return {};
         double left = 1;
         Found last;
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y))) {
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel))) {
             const double alpha = std::clamp(double(alpha_at(ldi_, ldi_.alpha(), i)), 0.0, 1.0);
             left *= 1 - alpha;
             if (alpha >= 0.5) last = Ground{pixel, disparity(lens_, double(ldi_.z[i])), i};
@@ -110,7 +109,7 @@ private:
     Ground shown_by(const Ground &last, const Imath::V2i &on) const {
         const Found before = ground(last.pixel - on), hides = ground(last.pixel + on);
         if (!before || !hides || !last.sample || !before->sample || !hides->sample) return last;
-        if (ldi_.pixel(ldi_.windows.index(last.pixel.x, last.pixel.y)).size() != 1) return last;
+        if (ldi_.pixel(ldi_.windows.index(last.pixel)).size() != 1) return last;
         if (std::abs(before->depth - last.depth) >= one_surface_px) return last;
         const auto mixture = colour(last), strange = colour(*hides), own = colour(*before);
         if (!mixture || !unmix(*mixture, *strange, *own, mostly_b, GatherTuning::filler_mixed)) return last;

@@ -116,7 +116,7 @@ ReferenceValue normalised(const Gathered &of, long double total, long double fla
 // The pixel as seen without a lens.
 long double flattened(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
     long double passed = 1, sum = 0;
-    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(pixel.x, pixel.y))) {
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(pixel.x, pixel.y)))) {
         const long double passes =
             pixel.holdout ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(ldi.z[i])) : 1;
         sum += passed * passes * (long double)ldi.values[channel][i];
@@ -126,7 +126,7 @@ long double flattened(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
 }
 
 long double front_id(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
-    const SampleRange samples = ldi.pixel(ldi.windows.index(pixel.x, pixel.y));
+    const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(pixel.x, pixel.y)));
     return samples.empty() ? 0 : (long double)ldi.values[channel][samples.front()];
 }
 

@@ -62,7 +62,7 @@ struct ReferencePicture {
     std::vector<bool> sure;             // [pixel]: no edge of a sample is so close; least == most == value
 
     const ReferenceValue &at(std::size_t channel, int x, int y) const {
-        return values[channel * windows.pixels() + windows.index(x, y)];
+        return values[channel * windows.pixels() + windows.index(Imath::V2i(x, y))];
     }
     double unsure_share() const; // of all pixels
     double unsure_points = 0;    // the share of all lens points of all pixels for which rounding decides

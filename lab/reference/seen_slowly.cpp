@@ -27,7 +27,7 @@ std::vector<Placed> place_samples(const Ldi &ldi, const ThinLens &lens, const Im
     std::vector<Placed> placed;
     for (int row = ldi.windows.data.min.y; row <= ldi.windows.data.max.y; ++row)
         for (int column = ldi.windows.data.min.x; column <= ldi.windows.data.max.x; ++column) {
-            const std::size_t pixel = ldi.windows.index(column, row);
+            const std::size_t pixel = ldi.windows.index(Imath::V2i(column, row));
             const long double x = column + 0.5L, y = row + 0.5L;
             long double passed = 1;
             for (const std::uint64_t i : ldi.pixel(pixel)) {
@@ -68,7 +68,7 @@ const Placed *shown_by(const Ldi &ldi, std::span<const Placed> samples, std::uin
                        const Imath::V2i &pixel) {
     const auto holds = [&](const Imath::V2i &at, std::uint64_t i) {
         if (!ldi.windows.data.intersects(at)) return false;
-        const SampleRange range = ldi.pixel(ldi.windows.index(at.x, at.y));
+        const SampleRange range = ldi.pixel(ldi.windows.index(at));
         return i >= range.from && i < range.to;
     };
     const bool is_partial = alpha_of(ldi, own) < opaque;

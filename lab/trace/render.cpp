@@ -61,7 +61,7 @@ void render_row(const Tracer &tracer, Light light, Image &image, int y, std::spa
             sums[(first + i) / samples] +=
                 Imath::Vec4<double>(radiance[i].r, radiance[i].g, radiance[i].b, radiance[i].a);
     }
-    const std::size_t row = windows.index(windows.data.min.x, y);
+    const std::size_t row = windows.index(Imath::V2i(windows.data.min.x, y));
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (std::size_t i = 0; i < columns.size(); ++i)
             image.plane(channel)[row + std::size_t(columns[i])] =

@@ -1,11 +1,12 @@
-// The pixels of a rectangle, counted row by row, and rectangles cut into tiles. Coordinates are converted to an index,
-// and back, only here. Both are checked in debug builds.
+// Pixels of a picture, positions in an array, and boxes of both cut into tiles. Places are converted to an index, and
+// back, only here. Both are checked in builds with assertions.
 #pragma once
 
 #include <Imath/ImathBox.h>
 
 #include <algorithm>
 #include <cassert>
+#include <concepts>
 #include <cstddef>
 
 namespace sparselens {
@@ -22,69 +23,117 @@ inline Imath::Box2i common_box(const Imath::Box2i &a, const Imath::Box2i &b) {
             {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
 }
 
-class Grid {
+// A place in an array: its column and row, counted from 0 at the upper left corner. A pixel in EXR coordinates is an
+// Imath::V2i. Only Grid turns one into the other, by position() and pixel(). A step from one place to another is an
+// Imath::V2i too.
+struct Position {
+    int column = 0, row = 0;
+    constexpr Position() = default;
+    constexpr explicit Position(int column_, int row_) : column(column_), row(row_) {}
+    Position operator+(const Imath::V2i &step) const { return Position(column + step.x, row + step.y); }
+    Position operator-(const Imath::V2i &step) const { return *this + -step; }
+    Imath::V2i operator-(const Position &from) const { return {column - from.column, row - from.row}; }
+    bool operator==(const Position &) const = default;
+};
+
+struct PositionBox { // max inclusive
+    Position min, max;
+    bool contains(const Position &at) const {
+        return at.column >= min.column && at.row >= min.row && at.column <= max.column && at.row <= max.row;
+    }
+    bool operator==(const PositionBox &) const = default;
+};
+
+// The positions of an array, counted row by row.
+class ArrayGrid {
 public:
-    Grid() = default;                                               // no pixels
-    Grid(int width, int height) : width_(width), height_(height) {} // [0, width) x [0, height)
-    explicit Grid(const Imath::Box2i &box)                          // max inclusive
-        : corner_(box.min), width_(box.max.x - box.min.x + 1), height_(box.max.y - box.min.y + 1) {}
+    ArrayGrid() = default; // none
+    ArrayGrid(int width, int height) : width_(width), height_(height) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
     std::size_t size() const { return std::size_t(width_) * std::size_t(height_); }
-    Imath::Box2i box() const { return {corner_, corner_ + Imath::V2i(width_ - 1, height_ - 1)}; }
+    PositionBox box() const { return {Position(0, 0), Position(width_ - 1, height_ - 1)}; }
 
-    bool contains(int x, int y) const {
-        return x >= corner_.x && y >= corner_.y && x - corner_.x < width_ && y - corner_.y < height_;
+    bool contains(const Position &at) const { return box().contains(at); }
+    std::size_t index(const Position &at) const {
+        assert(contains(at));
+        return std::size_t(at.row) * std::size_t(width_) + std::size_t(at.column);
     }
-    std::size_t index(int x, int y) const {
-        assert(contains(x, y));
-        return std::size_t(y - corner_.y) * std::size_t(width_) + std::size_t(x - corner_.x);
-    }
-    // The pixel with this index.
-    Imath::V2i pixel(std::size_t index) const {
+    Position position(std::size_t index) const {
         assert(index < size());
-        return corner_ + Imath::V2i(int(index % std::size_t(width_)), int(index / std::size_t(width_)));
+        return Position(int(index % std::size_t(width_)), int(index / std::size_t(width_)));
     }
 
 private:
-    Imath::V2i corner_{0, 0};
     int width_ = 0, height_ = 0;
 };
 
-// A box cut into tiles, counted row by row from its upper left corner. Tiles at the right and lower edge may be
-// smaller.
+// The pixels of a box, counted row by row. Pixels are deduced, so that {x, y} does not become one unsaid.
+class Grid {
+public:
+    Grid() = default;                      // no pixels
+    explicit Grid(const Imath::Box2i &box) // max inclusive
+        : corner_(box.min), array_(box.max.x - box.min.x + 1, box.max.y - box.min.y + 1) {}
+
+    const ArrayGrid &array() const { return array_; }
+    int width() const { return array_.width(); }
+    int height() const { return array_.height(); }
+    std::size_t size() const { return array_.size(); }
+    Imath::Box2i box() const { return {corner_, corner_ + Imath::V2i(width() - 1, height() - 1)}; }
+
+    // Where a pixel lies in the array of all, and the reverse.
+    Position position(const std::same_as<Imath::V2i> auto &pixel) const {
+        return Position(pixel.x - corner_.x, pixel.y - corner_.y);
+    }
+    Imath::V2i pixel(const Position &at) const { return corner_ + Imath::V2i(at.column, at.row); }
+
+    bool contains(const Position &at) const { return array_.contains(at); }
+    bool contains(const std::same_as<Imath::V2i> auto &pixel) const { return box().intersects(pixel); }
+    std::size_t index(const Position &at) const { return array_.index(at); }
+    std::size_t index(const std::same_as<Imath::V2i> auto &pixel) const { return index(position(pixel)); }
+    Imath::V2i pixel(std::size_t index) const { return pixel(array_.position(index)); }
+
+private:
+    Imath::V2i corner_{0, 0};
+    ArrayGrid array_;
+};
+
+// A box of pixels or of positions cut into tiles, counted row by row from its upper left corner. Tiles at the right and
+// lower edge may be smaller.
+template <typename Box = Imath::Box2i>
 class Tiles {
 public:
-    Tiles(const Imath::Box2i &box, int width, int height) // size of a tile, > 0
+    using Place = decltype(Box::min);
+
+    Tiles(const Box &box, int width, int height) // size of a tile, > 0
         : box_(box), width_(width), height_(height),
-          grid_(pieces_of(Grid(box).width(), width), pieces_of(Grid(box).height(), height)) {}
-    Tiles(const Imath::Box2i &box, int size) : Tiles(box, size, size) {}
+          grid_(pieces_of((box.max - box.min)[0] + 1, width), pieces_of((box.max - box.min)[1] + 1, height)) {
+    }
+    Tiles(const Box &box, int size) : Tiles(box, size, size) {}
 
     int columns() const { return grid_.width(); }
     int rows() const { return grid_.height(); }
     std::size_t count() const { return grid_.size(); }
 
-    // The pixels of a tile, max inclusive.
-    Imath::Box2i box(int column, int row) const {
-        assert(grid_.contains(column, row));
-        const Imath::V2i first = box_.min + Imath::V2i(column * width_, row * height_);
-        return {first,
-                {std::min(first.x + width_ - 1, box_.max.x), std::min(first.y + height_ - 1, box_.max.y)}};
+    // The places of a tile, max inclusive.
+    Box box(const Position &tile) const {
+        assert(grid_.contains(tile));
+        const Imath::V2i first(tile.column * width_, tile.row * height_), last = box_.max - box_.min;
+        return {box_.min + first, box_.min + Imath::V2i(std::min(first.x + width_ - 1, last.x),
+                                                        std::min(first.y + height_ - 1, last.y))};
     }
-    Imath::Box2i box(std::size_t tile) const {
-        const Imath::V2i at = grid_.pixel(tile);
-        return box(at.x, at.y);
-    }
-    // The tile that holds a pixel of the box.
-    std::size_t tile_of(const Imath::V2i &pixel) const {
-        return grid_.index((pixel.x - box_.min.x) / width_, (pixel.y - box_.min.y) / height_);
+    Box box(std::size_t tile) const { return box(grid_.position(tile)); }
+    // The tile that holds a place of the box.
+    std::size_t tile_of(const Place &place) const {
+        const Imath::V2i at = place - box_.min;
+        return grid_.index(Position(at.x / width_, at.y / height_));
     }
 
 private:
-    Imath::Box2i box_;
+    Box box_;
     int width_, height_;
-    Grid grid_; // of tiles
+    ArrayGrid grid_;
 };
 
 } // namespace sparselens

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -49,16 +50,19 @@ Image::Image(const Windows &windows_, std::vector<Channel> channels_)
 }
 
 std::span<float> Image::plane(std::size_t channel) {
+    assert(channel < channels.size() && values.size() == channels.size() * windows.pixels());
     return std::span(values).subspan(channel * windows.pixels(), windows.pixels());
 }
 
 std::span<const float> Image::plane(std::size_t channel) const {
+    assert(channel < channels.size() && values.size() == channels.size() * windows.pixels());
     return std::span(values).subspan(channel * windows.pixels(), windows.pixels());
 }
 
 namespace {
 std::size_t index_of(const Image &image, std::size_t channel, int x, int y) {
-    return channel * image.windows.pixels() + image.windows.index(x, y);
+    assert(channel < image.channels.size());
+    return channel * image.windows.pixels() + image.windows.index(Imath::V2i(x, y));
 }
 } // namespace
 

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -68,7 +69,8 @@ struct Windows {
     int width() const { return grid().width(); }
     int height() const { return grid().height(); }
     std::size_t pixels() const { return grid().size(); }
-    std::size_t index(int x, int y) const { return grid().index(x, y); }
+    std::size_t index(const Position &at) const { return grid().index(at); }
+    std::size_t index(const std::same_as<Imath::V2i> auto &pixel) const { return grid().index(pixel); }
     Imath::V2i pixel(std::size_t index) const { return grid().pixel(index); }
     int display_width() const { return display.max.x - display.min.x + 1; }
     int display_height() const { return display.max.y - display.min.y + 1; }
@@ -91,7 +93,7 @@ struct Image {
 
     std::span<float> plane(std::size_t channel);
     std::span<const float> plane(std::size_t channel) const;
-    float &at(std::size_t channel, int x, int y); // EXR pixel coordinates, unchecked
+    float &at(std::size_t channel, int x, int y); // EXR coordinates
     float at(std::size_t channel, int x, int y) const;
 };
 

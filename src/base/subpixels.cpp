@@ -86,8 +86,8 @@ public:
         const Imath::Box2i &data = fine_.windows.data;
         std::ranges::fill(sums_, 0.0);
         for (std::size_t j = 0; j < rows_.shares.size(); ++j) {
-            const auto row =
-                fine_.plane(channel).subspan(fine_.windows.index(data.min.x, rows_.first + int(j)));
+            const auto row = fine_.plane(channel).subspan(
+                fine_.windows.index(Imath::V2i(data.min.x, rows_.first + int(j))));
             for (std::size_t x = 0; x < sums_.size(); ++x) sums_[x] += rows_.shares[j] * double(row[x]);
         }
         for (std::size_t i = 0; i < columns_.size(); ++i) {

@@ -71,7 +71,7 @@ std::optional<MomentsNeed> plan_moments(const OpenedView &first, const OpenedVie
                                       camera_with_options(lens, last.camera), windows);
     const auto expected = [&](const Imath::V2i &pixel) {
         const Imath::V2d middle = Imath::V2d(pixel) + Imath::V2d(0.5);
-        const double z = double(view.z[windows.index(pixel.x, pixel.y)]);
+        const double z = double(view.z[windows.index(pixel)]);
         return camera && z > 0 ? camera->moved(middle, z) - middle : Imath::V2d(0);
     };
     return moments_needed(view, last.view, planned.setting.lens, expected, part_between(first, last, moments),

@@ -58,7 +58,7 @@ Ldi empty_like(const Ldi &like) {
 }
 
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &)> &fill) {
-    const Grid grid(like.windows.width(), like.windows.height());
+    const ArrayGrid grid(like.windows.width(), like.windows.height());
     std::vector<Ldi> rows(std::size_t(grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) {
         Ldi &piece = rows[y] = empty_like(like);
@@ -66,7 +66,7 @@ Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &
         piece.begin.push_back(0);
         for (int x = 0; x < grid.width(); ++x) {
             piece.begin.push_back(piece.begin.back());
-            fill(grid.index(x, int(y)), piece);
+            fill(grid.index(Position(x, int(y))), piece);
         }
     });
     return concatenate(like, std::move(rows));
@@ -145,7 +145,7 @@ void make_moves(std::vector<float> &array, std::size_t k, const std::vector<Move
 void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
                     const std::function<void(std::size_t, Ldi &)> &fill) {
     constexpr std::size_t rows_at_once = 64;
-    const Grid grid(ldi.windows.width(), ldi.windows.height());
+    const ArrayGrid grid(ldi.windows.width(), ldi.windows.height());
     const auto width = std::size_t(grid.width()), height = std::size_t(grid.height());
     std::vector<std::uint64_t> begin(ldi.begin.size(), 0);
     const std::size_t arrays = arrays_beside_values + ldi.values.size();

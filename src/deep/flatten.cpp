@@ -48,11 +48,11 @@ Image flatten(const Ldi &ldi) {
     const std::vector<std::size_t> coverage = coverage_by_channel(ldi);
     const std::vector<std::size_t> ids = channels_of_ids(ldi);
     const std::vector<Matte> mattes = find_mattes(ldi.channels);
-    const Grid grid(ldi.windows.width(), ldi.windows.height());
+    const ArrayGrid grid(ldi.windows.width(), ldi.windows.height());
     parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
         MatteSum sums(mattes);
         for (int x = 0; x < grid.width(); ++x) {
-            const std::size_t pixel = grid.index(x, int(y));
+            const std::size_t pixel = grid.index(Position(x, int(y)));
             flatten_pixel(ldi, coverage, pixel, out);
             for (const std::size_t k : ids) flatten_ids(ldi, k, pixel, out);
             if (!mattes.empty()) flatten_mattes(ldi, sums, pixel, out);
@@ -63,7 +63,7 @@ Image flatten(const Ldi &ldi) {
 
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel) {
     if (!ldi.windows.data.intersects(pixel)) return 0;
-    const std::size_t i = ldi.windows.index(pixel.x, pixel.y);
+    const std::size_t i = ldi.windows.index(pixel);
     return ldi.pixel(i).empty() ? 0 : ldi.z[ldi.pixel(i).front()];
 }
 

@@ -62,10 +62,10 @@ void for_each_run(const std::vector<Ldi> &parts, const Ldi &out, const Visit &vi
     parallel_for(std::size_t(out.windows.height()), [&](std::size_t row) {
         const int y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x) {
-            std::uint64_t to = out.pixel(out.windows.index(x, y)).from;
+            std::uint64_t to = out.pixel(out.windows.index(Imath::V2i(x, y))).from;
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 if (!parts[p].windows.data.intersects(Imath::V2i(x, y))) continue;
-                const SampleRange samples = parts[p].pixel(parts[p].windows.index(x, y));
+                const SampleRange samples = parts[p].pixel(parts[p].windows.index(Imath::V2i(x, y)));
                 visit(p, samples, to);
                 to += samples.size();
             }
@@ -78,7 +78,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
     for (const Ldi &part : parts)
         for (std::size_t row = 0, i = 0; row < std::size_t(part.windows.height()); ++row) {
             const Imath::V2i corner = part.windows.data.min;
-            const std::size_t first = windows.index(corner.x, corner.y + int(row));
+            const std::size_t first = windows.index(Imath::V2i(corner.x, corner.y + int(row)));
             for (std::size_t x = 0; x < std::size_t(part.windows.width()); ++x, ++i)
                 begin[first + x + 1] += part.pixel(i).size();
         }
@@ -140,7 +140,7 @@ Holdout::Holdout(Ldi ldi) : ldi_(std::move(ldi)), alpha_(ldi_.alpha()) {}
 
 double Holdout::passes(int x, int y, double z) const {
     if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return 1;
-    const std::size_t pixel = ldi_.windows.index(x, y);
+    const std::size_t pixel = ldi_.windows.index(Imath::V2i(x, y));
     double passed = 1;
     for (const std::uint64_t i : ldi_.pixel(pixel)) {
         if (!(passed > 0)) break;
@@ -154,7 +154,7 @@ double Holdout::passes(int x, int y, double z) const {
 
 void Holdout::append_parts(int x, int y, std::vector<Part> &parts) const {
     if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return;
-    for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(x, y)))
+    for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(Imath::V2i(x, y))))
         parts.push_back(
             {ldi_.z[i], float(back_at(ldi_, i)), std::max(0.0f, 1 - float(alpha_at(ldi_, alpha_, i)))});
 }
@@ -165,7 +165,8 @@ std::size_t Holdout::parts_in(const Imath::Box2i &pixels) const {
     std::size_t count = 0;
     for (int y = std::max(pixels.min.y, data.min.y); left <= right && y <= std::min(pixels.max.y, data.max.y);
          ++y)
-        count += ldi_.begin[ldi_.windows.index(right, y) + 1] - ldi_.begin[ldi_.windows.index(left, y)];
+        count += ldi_.begin[ldi_.windows.index(Imath::V2i(right, y)) + 1] -
+                 ldi_.begin[ldi_.windows.index(Imath::V2i(left, y))];
     return count;
 }
 
@@ -181,7 +182,7 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
         MatteSum matte_sums(mattes);
         const int y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x) {
-            const std::size_t pixel = ldi.windows.index(x, y);
+            const std::size_t pixel = ldi.windows.index(Imath::V2i(x, y));
             std::ranges::fill(sums, 0.0);
             for_shares(ldi, alpha, ldi.pixel(pixel), [&](std::uint64_t i, double transmittance) {
                 if (!(transmittance > 0)) return;

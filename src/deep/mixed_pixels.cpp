@@ -85,14 +85,14 @@ struct Surroundings {
 };
 
 Surroundings look_around(const FlatPixels &pixels, int x, int y, int reach) {
-    const Grid &grid = pixels.grid;
-    const std::size_t own = grid.index(x, y);
+    const ArrayGrid &grid = pixels.grid;
+    const std::size_t own = grid.index(Position(x, y));
     const bool own_shows = shows_surface(pixels, own);
     Surroundings found;
     double least = std::numeric_limits<double>::infinity();
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid.height() - 1); ++v)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid.width() - 1); ++u) {
-            const std::size_t other = grid.index(u, v);
+            const std::size_t other = grid.index(Position(u, v));
             found.nothing = found.nothing || pixels.coverage(other) <= 0;
             if (other == own || !shows_surface(pixels, other)) continue;
             if (own_shows && !(pixels.coverage(other) > pixels.coverage(own))) continue;
@@ -107,7 +107,7 @@ Surroundings look_around(const FlatPixels &pixels, int x, int y, int reach) {
 }
 
 std::optional<float> depth_of_partly_covered(const FlatPixels &pixels, int x, int y) {
-    const std::size_t own = pixels.grid.index(x, y);
+    const std::size_t own = pixels.grid.index(Position(x, y));
     const float z = pixels.z[own];
     for (const int reach : {1, 2}) {
         const Surroundings around = look_around(pixels, x, y, reach);
@@ -132,24 +132,25 @@ struct Sides {
 // Whether the depth between the two sides, which differ by `width`, is a step and not part of a slope. At a step they
 // differ by hardly more twice as far out; on a slope of one surface they differ by twice as much there.
 bool is_step(const FlatPixels &pixels, int x, int y, const Imath::V2i &step, double width) {
-    const Imath::V2i a = Imath::V2i(x, y) - step * 2, b = Imath::V2i(x, y) + step * 2;
-    if (!pixels.grid.contains(a.x, a.y) || !pixels.grid.contains(b.x, b.y)) return false;
-    const auto depth = [&](const Imath::V2i &at) {
-        return std::min(double(pixels.z[pixels.grid.index(at.x, at.y)]), sky);
+    const Position a = Position(x, y) - step * 2, b = Position(x, y) + step * 2;
+    if (!pixels.grid.contains(a) || !pixels.grid.contains(b)) return false;
+    const auto depth = [&](const Position &at) {
+        return std::min(double(pixels.z[pixels.grid.index(at)]), sky);
     };
     return width > least_of_step * std::abs(depth(a) - depth(b));
 }
 
 std::optional<Sides> sides_of(const FlatPixels &pixels, int x, int y, const Imath::V2i &step) {
-    const Grid &grid = pixels.grid;
-    if (!grid.contains(x - step.x, y - step.y) || !grid.contains(x + step.x, y + step.y)) return {};
-    Sides sides{grid.index(x - step.x, y - step.y), grid.index(x + step.x, y + step.y), 0};
+    const ArrayGrid &grid = pixels.grid;
+    const Position own(x, y), before = own - step, after = own + step;
+    if (!grid.contains(before) || !grid.contains(after)) return {};
+    Sides sides{grid.index(before), grid.index(after), 0};
     if (pixels.z[sides.near] > pixels.z[sides.far]) std::swap(sides.near, sides.far);
     const double near = pixels.z[sides.near], far = std::min(double(pixels.z[sides.far]), sky);
     if (!(far > apart * near)) return {};
     if (!pixels.opaque(sides.near) || !pixels.opaque(sides.far)) return {};
     if (!is_step(pixels, x, y, step, far - near)) return {};
-    sides.share = (far - double(pixels.z[grid.index(x, y)])) / (far - near);
+    sides.share = (far - double(pixels.z[grid.index(own)])) / (far - near);
     return sides;
 }
 
@@ -172,7 +173,7 @@ struct Edge {
 
 Edge edge_at(const FlatPixels &pixels, int x, int y) {
     constexpr std::array directions{Imath::V2i(1, 0), Imath::V2i(0, 1), Imath::V2i(1, 1), Imath::V2i(1, -1)};
-    const std::size_t own = pixels.grid.index(x, y);
+    const std::size_t own = pixels.grid.index(Position(x, y));
     Edge edge;
     double widest = 0;
     for (const int distance : {1, 2})
@@ -196,14 +197,14 @@ constexpr int reach = 2;
 // For each pixel of a row: whether the pixels around it show surfaces that are apart. Most do not, and cannot be edges.
 std::vector<std::uint8_t> parted_around(const FlatPixels &pixels, int y) {
     constexpr float nearly_apart = 1.09f; // below `apart`, to allow for rounding
-    const Grid &grid = pixels.grid;
+    const ArrayGrid &grid = pixels.grid;
     const auto width = std::size_t(grid.width());
     const int first = std::max(y - reach, 0), last = std::min(y + reach, grid.height() - 1);
     // The extremes along y. Beyond both ends of the row there is nothing.
     std::vector<float> least(width + 2 * reach, std::numeric_limits<float>::infinity()),
         most(width + 2 * reach, -std::numeric_limits<float>::infinity());
     for (int other = first; other <= last; ++other) {
-        const float *z = &pixels.z[grid.index(0, other)];
+        const float *z = &pixels.z[grid.index(Position(0, other))];
         float *near = &least[reach], *far = &most[reach];
         for (std::size_t x = 0; x < width; ++x) {
             near[x] = z[x] < near[x] ? z[x] : near[x];
@@ -230,8 +231,8 @@ std::size_t repair_strands(const FlatPixels &pixels, std::vector<std::size_t> lo
         std::vector<std::size_t> left;
         std::vector<std::pair<std::size_t, float>> found;
         for (const std::size_t i : lost) {
-            const Imath::V2i at = pixels.grid.pixel(i);
-            const Surroundings around = look_around(pixels, at.x, at.y, 2);
+            const Position at = pixels.grid.position(i);
+            const Surroundings around = look_around(pixels, at.column, at.row, 2);
             if (around.best != 0 && around.nothing)
                 found.emplace_back(i, around.best);
             else
@@ -255,7 +256,7 @@ Row row_at(const FlatPixels &pixels, int y) {
     Row row;
     const std::vector<std::uint8_t> parted = parted_around(pixels, y);
     for (int x = 0; x < pixels.grid.width(); ++x) {
-        const std::size_t own = pixels.grid.index(x, y);
+        const std::size_t own = pixels.grid.index(Position(x, y));
         if (pixels.coverage(own) <= 0) continue;
         if (!pixels.opaque(own)) {
             if (const auto depth = depth_of_partly_covered(pixels, x, y))

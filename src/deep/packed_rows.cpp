@@ -141,7 +141,7 @@ Ldi PackedRows::rows(int first, int last) const {
     ldi.begin.reserve(ldi.windows.pixels() + 1);
     for (int y = first; y <= last; ++y)
         for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x)
-            ldi.begin.push_back(begin_of_row(y) - from + in_row_[windows_.index(x, y)]);
+            ldi.begin.push_back(begin_of_row(y) - from + in_row_[windows_.index(Imath::V2i(x, y))]);
     ldi.begin.push_back(to - from);
     const std::vector<std::vector<float> *> arrays = arrays_of(ldi);
     parallel_for(arrays.size(), [&](std::size_t k) {

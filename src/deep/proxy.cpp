@@ -75,11 +75,13 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
-            for_shares(ldi, alpha, ldi.pixel(ldi.windows.index(x, y)), [&](std::uint64_t i, double shown) {
-                const MergedSample s = sample_at(ldi, i);
-                seen.push_back({i, s.z, s.image_z, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
-                                (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
-            });
+            for_shares(ldi, alpha, ldi.pixel(ldi.windows.index(Imath::V2i(x, y))),
+                       [&](std::uint64_t i, double shown) {
+                           const MergedSample s = sample_at(ldi, i);
+                           seen.push_back({i, s.z, s.image_z, shown,
+                                           (x + 0.5 + s.dx) / factor - (small.x + 0.5),
+                                           (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
+                       });
         }
     if (!joined.empty()) take_means(joined, seen);
     std::ranges::sort(seen, {}, [](const Seen &s) { return std::pair(s.z, s.index); });
@@ -197,7 +199,7 @@ Ldi enlarged(const Ldi &ldi, int factor) {
     Ldi out = build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
         const Imath::V2i at = like.windows.pixel(pixel);
         const Imath::V2i from = reduced({at, at}, factor).min;
-        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(from.x, from.y))) append(row, ldi, i);
+        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(from))) append(row, ldi, i);
     });
     out.dx.clear(), out.dy.clear();
     return out;
@@ -216,7 +218,7 @@ Ldi padded(Ldi ldi, const Imath::Box2i &data) {
     for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
         for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
             const bool old = ldi.windows.data.intersects(Imath::V2i(x, y));
-            begin.push_back(old ? ldi.begin[ldi.windows.index(x, y) + 1] : begin.back());
+            begin.push_back(old ? ldi.begin[ldi.windows.index(Imath::V2i(x, y)) + 1] : begin.back());
         }
     ldi.begin = std::move(begin);
     ldi.windows = windows;

@@ -98,7 +98,7 @@ Recolored covered_as(const Ldi &ldi, const Image &flat) {
     out.ldi = build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
         const Imath::V2i at = flat.windows.pixel(pixel);
         const SampleRange samples =
-            ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y)) : SampleRange{0, 0};
+            ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at)) : SampleRange{0, 0};
         bool ends = false; // whether something lies at infinity
         for (const std::uint64_t i : samples) {
             if (ldi.z[i] == infinity && alpha_at(ldi, alpha, i) == 0) continue; // held only light

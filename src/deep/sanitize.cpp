@@ -85,7 +85,7 @@ private:
         const Imath::Box2i &data = s_.windows.data;
         for (int y = std::max(at.y - 1, data.min.y); y <= std::min(at.y + 1, data.max.y); ++y)
             for (int x = std::max(at.x - 1, data.min.x); x <= std::min(at.x + 1, data.max.x); ++x) {
-                const std::size_t other = s_.windows.index(x, y);
+                const std::size_t other = s_.windows.index(Imath::V2i(x, y));
                 if (other == pixel || s_.first(other) == s_.first(other + 1)) continue;
                 visit(nearest(other, s_.z[i]));
             }

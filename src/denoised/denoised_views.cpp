@@ -266,7 +266,7 @@ void same_surface_beside(const DenoisedLayer &view, std::size_t own, double scal
     found.clear();
     for (int v = std::max(at.y - radius, box.min.y); v <= std::min(at.y + radius, box.max.y); ++v)
         for (int u = std::max(at.x - radius, box.min.x); u <= std::min(at.x + radius, box.max.x); ++u) {
-            const std::size_t i = grid.index(u, v);
+            const std::size_t i = grid.index(Imath::V2i(u, v));
             const double apart = scale * std::abs(1 / double(view.z[i]) - inverse_z);
             if (i == own || (view.z[i] > 0 && apart < double(one_surface_px))) found.push_back(i);
         }
@@ -349,7 +349,7 @@ struct Planes {
     // Averages over windows all planes except those that judge a single pixel.
     void average(const Grid &grid) {
         for (Values *values : {&shared, &difference, &of_noisy, &log_difference, &log_own, &compared})
-            soft_mean(*values, grid, Tuning::window_radius);
+            soft_mean(*values, grid.array(), Tuning::window_radius);
     }
 
     float kept(std::size_t i) const { return std::max(kept_in_window(i), kept_pixel(i)); }

@@ -98,7 +98,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
     std::vector<float> all, blurred; // the brightness of the samples
     for_each_border_pixel(display, [&](int x, int y) {
         const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
-        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
+        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y)))) {
             if (alpha != npos && ldi.values[alpha][i] < GatherTuning::border_counts) continue;
             const double coc = circle_of_confusion(lens, ldi.coc_z(i));
             const Imath::V2d spread = light.at(at, coc);
@@ -129,7 +129,7 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
             reach.add(frame, {x, y}, light.at(at, circle_of_confusion(lens, z)), shown);
         };
         const bool is_there = ldi.windows.data.intersects(Imath::V2i(x, y));
-        const SampleRange samples = is_there ? ldi.pixel(ldi.windows.index(x, y)) : SampleRange{};
+        const SampleRange samples = is_there ? ldi.pixel(ldi.windows.index(Imath::V2i(x, y))) : SampleRange{};
         for (const std::uint64_t i : samples) add(ldi.coc_z(i));
         if (lets_through(ldi, alpha, samples)) add(std::numeric_limits<double>::infinity());
     });

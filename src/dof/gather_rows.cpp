@@ -186,8 +186,8 @@ Imath::Box2i common(const Imath::Box2i &window, const Band &band) {
 void copy_rows(const Image &band, Image &picture) {
     const Imath::Box2i &rows = band.windows.data;
     for (std::size_t k = 0; k < picture.channels.size(); ++k)
-        std::ranges::copy(band.plane(k), picture.plane(k).begin() +
-                                             std::ptrdiff_t(picture.windows.index(rows.min.x, rows.min.y)));
+        std::ranges::copy(band.plane(k),
+                          picture.plane(k).begin() + std::ptrdiff_t(picture.windows.index(rows.min)));
 }
 
 // The tiles of a band, without lens points.

@@ -55,21 +55,21 @@ Plan plan_of(const std::vector<Part> &parts, double fall, double rays_wanted, do
 }
 
 // Cuts a lattice of blocks in two, then one of the pieces, and so on, each time where it saves most.
-std::vector<Imath::Box2i> pieces_of(const Grid &lattice, const Plan &plan,
-                                    const std::function<Part(const Imath::Box2i &)> &part_of) {
-    std::vector<Imath::Box2i> pieces{lattice.box()};
+std::vector<PositionBox> pieces_of(const ArrayGrid &lattice, const Plan &plan,
+                                   const std::function<Part(const PositionBox &)> &part_of) {
+    std::vector<PositionBox> pieces{lattice.box()};
     const double worth = FinishTuning::least_saving * plan.cost(part_of(pieces[0]));
     while (pieces.size() < FinishTuning::most_pieces) {
         double most = worth;
         std::size_t cut = 0;
-        Imath::Box2i first, second;
+        PositionBox first, second;
         for (std::size_t p = 0; p < pieces.size(); ++p) {
             const double whole = plan.cost(part_of(pieces[p]));
-            for (const int axis : {0, 1})
-                for (int at = pieces[p].min[axis]; at < pieces[p].max[axis]; ++at) {
-                    Imath::Box2i before = pieces[p], after = before;
-                    before.max[axis] = at;
-                    after.min[axis] = at + 1;
+            for (const auto axis : {&Position::column, &Position::row})
+                for (int at = pieces[p].min.*axis; at < pieces[p].max.*axis; ++at) {
+                    PositionBox before = pieces[p], after = before;
+                    before.max.*axis = at;
+                    after.min.*axis = at + 1;
                     const double saved = whole - plan.cost(part_of(before)) - plan.cost(part_of(after));
                     if (saved <= most) continue;
                     most = saved, cut = p, first = before, second = after;
@@ -105,22 +105,22 @@ AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const G
     for (std::size_t i = 0; i < grid.size(); ++i)
         asked.more[i] = float(more(plan, parts[blocks.tile_of(grid.pixel(i))]));
 
-    const Grid lattice(blocks.columns(), blocks.rows());
-    const auto part_of = [&](const Imath::Box2i &box) {
+    const ArrayGrid lattice(blocks.columns(), blocks.rows());
+    const auto part_of = [&](const PositionBox &box) {
         Part sum;
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) sum += parts[lattice.index(x, y)];
+        for (int y = box.min.row; y <= box.max.row; ++y)
+            for (int x = box.min.column; x <= box.max.column; ++x)
+                sum += parts[lattice.index(Position(x, y))];
         return sum;
     };
-    const std::vector<Imath::Box2i> pieces = pieces_of(lattice, plan, part_of);
+    const std::vector<PositionBox> pieces = pieces_of(lattice, plan, part_of);
     std::vector<Part> together;
-    for (const Imath::Box2i &piece : pieces) together.push_back(part_of(piece));
+    for (const PositionBox &piece : pieces) together.push_back(part_of(piece));
     const Plan of_pieces = plan_of(together, fall, rays, goal);
     for (std::size_t p = 0; p < pieces.size(); ++p)
         if (const auto half = int(std::lround(more(of_pieces, together[p]) / 2)); half > 0)
-            asked.rectangles.emplace_back(Imath::Box2i(blocks.box(pieces[p].min.x, pieces[p].min.y).min,
-                                                       blocks.box(pieces[p].max.x, pieces[p].max.y).max),
-                                          2 * half);
+            asked.rectangles.emplace_back(
+                Imath::Box2i(blocks.box(pieces[p].min).min, blocks.box(pieces[p].max).max), 2 * half);
     return asked;
 }
 

@@ -15,7 +15,7 @@ constexpr float least_energy = 1e-9f;  // squared values: less than a picture sh
 constexpr float largest_energy_ratio = 30, largest_confirmation = 50; // a logarithm; standard deviations
 
 template <typename Task>
-void for_cells(const Grid &grid, const Task &task) {
+void for_cells(const ArrayGrid &grid, const Task &task) {
     parallel_ranges(grid.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) task(i);
     });
@@ -25,7 +25,7 @@ constexpr float area(int radius) { return float((2 * radius + 1) * (2 * radius +
 constexpr float outer = area(FinishTuning::ring_outer), inner = area(FinishTuning::ring_inner);
 
 // Replaces values by their sums over the ring, which are approximate at the border of the picture.
-void ring_sum(Values &values, const Grid &grid) {
+void ring_sum(Values &values, const ArrayGrid &grid) {
     Values near = values;
     box_mean(values, grid, FinishTuning::ring_outer);
     box_mean(near, grid, FinishTuning::ring_inner);
@@ -41,7 +41,7 @@ struct Measures {
 std::size_t class_at(float place) { return std::min(std::size_t(place), classes_per_measure - 1); }
 
 // Logarithms of energy over noise. `noise`: the squared difference of both renders.
-std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid) {
+std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const ArrayGrid &grid) {
     ring_sum(noise, grid);
     std::array<Values, 3> ratios = cells.energy;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -59,7 +59,7 @@ std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, con
 
 // The confirmed sum in the ring, in standard deviations of the rest that the tests leave: for each test, and for both
 // together.
-std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid) {
+std::array<Values, 3> confirmations(const CellEvidence &cells, const ArrayGrid &grid) {
     std::array<Values, 2> sums = cells.confirmed, variances = cells.left;
     for (std::size_t k = 0; k < 2; ++k) {
         ring_sum(sums[k], grid);
@@ -81,7 +81,7 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid)
 
 // The share of each picture's change that is accepted, for each cell.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells, Among among) {
-    const Grid &grid = cells.grid();
+    const ArrayGrid &grid = cells.grid();
     Measures measures{energy_ratios(evidence, evidence.noise, grid), confirmations(evidence, grid)};
     Classes by_energy(classes_per_measure, -largest_energy_ratio, largest_energy_ratio),
         by_confirmation(classes_per_measure, -largest_confirmation, largest_confirmation);
@@ -104,10 +104,10 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells, 
     std::vector<ClassSums> of_one(blocks.count()), of_all(blocks.count());
     const auto pixels = double(cells.side() * cells.side());
     parallel_for(blocks.count(), [&](std::size_t b) {
-        const Imath::Box2i box = blocks.box(b);
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) {
-                const std::size_t i = grid.index(x, y);
+        const PositionBox box = blocks.box(b);
+        for (int y = box.min.row; y <= box.max.row; ++y)
+            for (int x = box.min.column; x <= box.max.column; ++x) {
+                const std::size_t i = grid.index(Position(x, y));
                 const std::array<double, 2> samples{evidence.samples[0][i], evidence.samples[1][i]};
                 const double all = samples[0] + samples[1], of_both = samples[0] * samples[1] / all;
                 for (std::size_t k = 0; k < 2; ++k) {

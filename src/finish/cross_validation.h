@@ -22,7 +22,7 @@ namespace sparselens {
 struct RayEvidence {
     const Halves &rays;
     const RayCounts &samples;
-    Grid grid;
+    ArrayGrid grid;
 };
 
 // Pictures made of the first render, of the second, and of both. The third is the result; the others test it.

@@ -106,7 +106,7 @@ Values tone_weights(const Colours &guide) {
     return weights;
 }
 
-Regression::Regression(std::span<const float> guide, std::span<const float> weights, const Grid &grid,
+Regression::Regression(std::span<const float> guide, std::span<const float> weights, const ArrayGrid &grid,
                        const FinishTuning::Window &window)
     : guide_(guide), weights_(weights), cells_(grid, window.cell), radius_(window.radius) {
     weight_ = averaged(cells_, radius_, [&](std::size_t i) { return weights[i]; });
@@ -227,24 +227,23 @@ struct Pixels {
     const Halves &rays;
     const Colours &guide; // tone-mapped
     const Values &weights;
-    const Grid &grid;
+    const ArrayGrid &grid;
 };
 
-void load(const Pixels &pixels, const Imath::Box2i &box, Tile &tile) {
-    const Grid &grid = pixels.grid;
-    const Imath::Box2i all = grid.box();
+void load(const Pixels &pixels, const PositionBox &box, Tile &tile) {
+    const ArrayGrid &grid = pixels.grid;
     tile.channels = pixels.guide.size();
     std::array<std::size_t, stride> column;
     std::array<float, stride> inside;
     for (int i = 0; i < stride; ++i) {
-        const int x = box.min.x - beside + i, nearest = std::clamp(x, all.min.x, all.max.x);
-        column[std::size_t(i)] = std::size_t(nearest - all.min.x);
+        const int x = box.min.column - beside + i, nearest = std::clamp(x, 0, grid.width() - 1);
+        column[std::size_t(i)] = std::size_t(nearest);
         inside[std::size_t(i)] = x == nearest ? 1 : 0;
     }
     for (int y = -beside; y < rows + beside; ++y) {
-        const int nearest = std::clamp(box.min.y + y, all.min.y, all.max.y);
-        const float within = nearest == box.min.y + y ? 1 : 0;
-        const std::size_t from = grid.index(all.min.x, nearest);
+        const int nearest = std::clamp(box.min.row + y, 0, grid.height() - 1);
+        const float within = nearest == box.min.row + y ? 1 : 0;
+        const std::size_t from = grid.index(Position(0, nearest));
         const auto to = std::size_t(Tile::at(-beside, y));
         for (std::size_t i = 0; i < stride; ++i)
             tile.weights[to + i] = within * inside[i] * pixels.weights[from + column[i]];
@@ -258,26 +257,26 @@ void load(const Pixels &pixels, const Imath::Box2i &box, Tile &tile) {
     }
 }
 
-void store(const Tile &tile, const Imath::Box2i &box, const Grid &grid, Halves &means) {
-    for (int y = box.min.y; y <= box.max.y; ++y)
-        for (int x = box.min.x; x <= box.max.x; ++x) {
-            const auto from = std::size_t((y - box.min.y) * columns + x - box.min.x);
+void store(const Tile &tile, const PositionBox &box, const ArrayGrid &grid, Halves &means) {
+    for (int y = box.min.row; y <= box.max.row; ++y)
+        for (int x = box.min.column; x <= box.max.column; ++x) {
+            const auto from = std::size_t((y - box.min.row) * columns + x - box.min.column);
             for (std::size_t k = 0; k < 2; ++k)
                 for (std::size_t c = 0; c < tile.channels; ++c)
-                    means[k][c][grid.index(x, y)] = tile.means[k][c][from] / tile.sum[from];
+                    means[k][c][grid.index(Position(x, y))] = tile.means[k][c][from] / tile.sum[from];
         }
 }
 
 } // namespace
 
-Halves means_of_similar(const Halves &rays, const Colours &guide, const Grid &grid) {
+Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid) {
     const Colours mapped = tone_mapped_of(guide);
     const Values weights = tone_weights(guide);
     const Colours unset(guide.size(), Values(grid.size()));
     Halves means{unset, unset};
     const Tiles tiles(grid.box(), columns, rows);
     parallel_for(tiles.count(), [&](std::size_t t) {
-        const Imath::Box2i box = tiles.box(t);
+        const PositionBox box = tiles.box(t);
         const auto tile = std::make_unique<Tile>();
         load({rays, mapped, weights, grid}, box, *tile);
         for (int dy = -reach; dy <= reach; ++dy)

@@ -19,7 +19,7 @@ namespace sparselens {
 // The channels of one layer that are finished together: R, G and B, or a single one. All values are finite; all planes
 // have the pixels of `grid`.
 struct LayerToFinish {
-    Grid grid;
+    ArrayGrid grid;
     Colours gathered;
     Halves rays;
     RayCounts samples = {};
@@ -49,7 +49,7 @@ Values tone_weights(const Colours &guide);
 class Regression {
 public:
     // `guide` is one channel, `weights` belong to its layer; both must outlive the regression.
-    Regression(std::span<const float> guide, std::span<const float> weights, const Grid &grid,
+    Regression(std::span<const float> guide, std::span<const float> weights, const ArrayGrid &grid,
                const FinishTuning::Window &window);
 
     // The prediction for each pixel; `rays` are the same channel.
@@ -66,6 +66,6 @@ private:
 // which pixels are similar, so the means are linear in the rays. They follow edges of any form that the guide shows.
 
 // The means for both renders. `guide` and the renders have the same channels.
-Halves means_of_similar(const Halves &rays, const Colours &guide, const Grid &grid);
+Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid);
 
 } // namespace sparselens

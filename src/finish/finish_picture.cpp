@@ -34,9 +34,8 @@ Values over(const Image &image, std::size_t channel, const Windows &windows, con
     Values values(grid.size());
     parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
         for (int x = 0; x < grid.width(); ++x) {
-            const Imath::V2i at = windows.data.min + Imath::V2i(x, int(row));
-            values[row * std::size_t(grid.width()) + std::size_t(x)] =
-                box.intersects(at) ? plane[own.index(at.x, at.y)] : nothing;
+            const Imath::V2i at = grid.pixel(Position(x, int(row)));
+            values[grid.index(at)] = box.intersects(at) ? plane[own.index(at)] : nothing;
         }
     });
     return values;
@@ -140,11 +139,8 @@ void take_around(LayerToFinish &layer, PictureToFinish &picture, const std::vect
 
 LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> &channels) {
     const Windows &windows = picture.gathered.windows;
-    LayerToFinish layer{Grid(windows.width(), windows.height()),
-                        {},
-                        taken(picture.rays, channels),
-                        picture.rays.samples(),
-                        {}};
+    LayerToFinish layer{
+        windows.grid().array(), {}, taken(picture.rays, channels), picture.rays.samples(), {}};
     for (const std::size_t c : channels) {
         const auto plane = picture.gathered.plane(c);
         layer.gathered.emplace_back(plane.begin(), plane.end());
@@ -189,7 +185,7 @@ Imath::Box2i TwoHalves::shown(const Image &image) const {
             }
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const Imath::V2i at = windows_.pixel(i);
-        if (lit_[i] && own.contains(at.x, at.y) && !box.intersects(at)) return box;
+        if (lit_[i] && own.contains(at) && !box.intersects(at)) return box;
     }
     return image.windows.data;
 }
@@ -270,7 +266,7 @@ void TwoHalves::add_noisy(const Render &render) {
 }
 
 void TwoHalves::compare(const Noisy &one, const Noisy &two) {
-    const NoiseOfTwo noise = noise_of_two(one.green, two.green, gathered_green_, windows_.grid());
+    const NoiseOfTwo noise = noise_of_two(one.green, two.green, gathered_green_, windows_.grid().array());
     if (noise.same())
         throw Error(fmt::format("{}: has the same noise as {}: render each with a seed of its own", two.name,
                                 one.name));
@@ -346,13 +342,14 @@ float shown_slope(float value) {
 }
 
 // The mean of a plane, and the standard deviation of the mean, from the differences between its blocks.
-std::array<double, 2> mean_and_deviation(const Values &values, const Grid &grid) {
+std::array<double, 2> mean_and_deviation(const Values &values, const ArrayGrid &grid) {
     const Tiles blocks(grid.box(), FinishTuning::block_px);
     std::vector<double> sums(blocks.count(), 0);
     for (std::size_t b = 0; b < blocks.count(); ++b) {
-        const Imath::Box2i box = blocks.box(b);
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) sums[b] += double(values[grid.index(x, y)]);
+        const PositionBox box = blocks.box(b);
+        for (int y = box.min.row; y <= box.max.row; ++y)
+            for (int x = box.min.column; x <= box.max.column; ++x)
+                sums[b] += double(values[grid.index(Position(x, y))]);
     }
     double sum = 0, squares = 0;
     for (const double block : sums) sum += block;
@@ -364,7 +361,7 @@ std::array<double, 2> mean_and_deviation(const Values &values, const Grid &grid)
 } // namespace
 
 ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays, const RayCounts &samples,
-                             const Grid &grid) {
+                             const ArrayGrid &grid) {
     ErrorEstimate error;
     error.map.resize(grid.size());
     Values of_one(grid.size());

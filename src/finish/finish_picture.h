@@ -31,7 +31,7 @@ struct ErrorEstimate {
 };
 
 ErrorEstimate estimate_error(const FinishedLayer &finished, const Halves &rays, const RayCounts &samples,
-                             const Grid &grid);
+                             const ArrayGrid &grid);
 
 // 10 log10(1 / error); empty if the estimate differs from 0 by less than twice its standard deviation.
 std::optional<double> decibels(const ErrorEstimate &error);

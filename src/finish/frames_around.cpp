@@ -27,7 +27,7 @@ struct Compared {
     float both(std::size_t i) const { return noise[i] + other_noise[i]; }
 };
 
-Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const Grid &grid) {
+Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const ArrayGrid &grid) {
     const Values zeros(grid.size(), 0.0f);
     Compared found{zeros, zeros, zeros, zeros};
     parallel_ranges(grid.size(), pixels_at_once, [&](std::size_t begin, std::size_t end) {
@@ -87,7 +87,8 @@ private:
 
 } // namespace
 
-Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size_t frames, const Grid &grid) {
+Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size_t frames,
+                 const ArrayGrid &grid) {
     Compared found = compared(frame, other, grid);
     const ChangeByMovement by_movement(found);
     soft_mean(found.changed, grid, FinishTuning::residual_radius);
@@ -103,7 +104,7 @@ Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size
     return weight;
 }
 
-Halves averaged_rays(const FrameOfLayer &frame, std::span<const FrameOfLayer> around, const Grid &grid) {
+Halves averaged_rays(const FrameOfLayer &frame, std::span<const FrameOfLayer> around, const ArrayGrid &grid) {
     Halves averaged = frame.rays;
     std::vector<Values> weights;
     for (const FrameOfLayer &other : around) weights.push_back(weight_of(frame, other, around.size(), grid));

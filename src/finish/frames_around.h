@@ -34,9 +34,10 @@ struct FrameOfLayer {
 
 // For each pixel, the weight of the residuals of `other`, one of `frames` frames around, 0 to 1; those of `frame` have
 // the weight 1.
-Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size_t frames, const Grid &grid);
+Values weight_of(const FrameOfLayer &frame, const FrameOfLayer &other, std::size_t frames,
+                 const ArrayGrid &grid);
 
 // The frame's gathered picture plus the weighted means of the residuals.
-Halves averaged_rays(const FrameOfLayer &frame, std::span<const FrameOfLayer> around, const Grid &grid);
+Halves averaged_rays(const FrameOfLayer &frame, std::span<const FrameOfLayer> around, const ArrayGrid &grid);
 
 } // namespace sparselens

@@ -41,12 +41,12 @@ float brightest_around(const Colours &colours, std::size_t i, std::size_t width)
     return brightest;
 }
 
-Sums sums_of(const LayerToFinish &layer, const Imath::Box2i &box) {
+Sums sums_of(const LayerToFinish &layer, const PositionBox &box) {
     const auto width = std::size_t(layer.grid.width());
     Sums sums;
-    for (int y = box.min.y; y <= box.max.y; ++y)
-        for (int x = box.min.x; x <= box.max.x; ++x) {
-            const std::size_t i = layer.grid.index(x, y);
+    for (int y = box.min.row; y <= box.max.row; ++y)
+        for (int x = box.min.column; x <= box.max.column; ++x) {
+            const std::size_t i = layer.grid.index(Position(x, y));
             const auto weight = double(seen(brightest_around(layer.gathered, i, width)));
             for (std::size_t c = 0; c < layer.gathered.size(); ++c) {
                 const Values &plane = layer.gathered[c];
@@ -127,8 +127,9 @@ std::optional<double> told(const std::vector<Sums> &blocks, Change change, doubl
 LensMistakes check_lens(const LayerToFinish &layer) {
     if (layer.grid.width() < 3 || layer.grid.height() < 3) return {};
     // Leaves out the border, whose pixels lack neighbours.
-    const Imath::Box2i all = layer.grid.box();
-    const Tiles tiles({all.min + Imath::V2i(1), all.max - Imath::V2i(1)}, FinishTuning::mistake_block_px);
+    const PositionBox all = layer.grid.box();
+    const Tiles tiles(PositionBox{all.min + Imath::V2i(1), all.max - Imath::V2i(1)},
+                      FinishTuning::mistake_block_px);
     std::vector<Sums> sums(tiles.count());
     parallel_for(sums.size(), [&](std::size_t b) { sums[b] = sums_of(layer, tiles.box(b)); });
     LensMistakes found;
@@ -180,12 +181,12 @@ struct Directions {
 };
 
 // Adds the pairs of each pixel of a block with the pixel whose index is smaller by `apart`.
-void add_directions(const Values &a, const Values &b, const Grid &grid, const Imath::Box2i &box,
+void add_directions(const Values &a, const Values &b, const ArrayGrid &grid, const PositionBox &box,
                     std::size_t apart, Directions &sum) {
     std::size_t all = 0, same = 0, up = 0, other_up = 0;
-    for (int y = box.min.y; y <= box.max.y; ++y)
-        for (int x = box.min.x; x <= box.max.x; ++x) {
-            const std::size_t i = grid.index(x, y), j = i - apart;
+    for (int y = box.min.row; y <= box.max.row; ++y)
+        for (int x = box.min.column; x <= box.max.column; ++x) {
+            const std::size_t i = grid.index(Position(x, y)), j = i - apart;
             const float here = a[i] - b[i], there = a[j] - b[j];
             if (here == 0 || there == 0 || !std::isfinite(here + there)) continue;
             ++all;
@@ -201,33 +202,34 @@ void add_directions(const Values &a, const Values &b, const Grid &grid, const Im
 }
 
 // The share of pairs that agree, less what chance explains: the expected share and four standard deviations.
-double agreement(const Values &a, const Values &b, const Grid &grid) {
+double agreement(const Values &a, const Values &b, const ArrayGrid &grid) {
     constexpr int apart = FinishTuning::noise_apart;
     Directions sum;
     for (const Imath::V2i &by : {Imath::V2i(apart, 0), Imath::V2i(0, apart)}) {
         if (grid.width() <= by.x || grid.height() <= by.y) continue;
-        const Imath::V2i first = grid.box().min + by;
-        const Tiles tiles({first, grid.box().max}, FinishTuning::block_px);
+        const PositionBox later{grid.box().min + by, grid.box().max};
+        const Tiles tiles(later, FinishTuning::block_px);
         for (std::size_t t = 0; t < tiles.count(); ++t)
-            add_directions(a, b, grid, tiles.box(t), grid.index(first.x, first.y), sum);
+            add_directions(a, b, grid, tiles.box(t), grid.index(later.min), sum);
     }
     if (sum.all == 0) return 0;
     return (double(sum.same) - sum.expected) / double(sum.all) - 2 / std::sqrt(double(sum.all));
 }
 
 // The share of the first render in the noise, the median over blocks; 1/2 if nothing tells.
-double noise_of_first(const Values &first, const Values &second, const Values &gathered, const Grid &grid) {
+double noise_of_first(const Values &first, const Values &second, const Values &gathered,
+                      const ArrayGrid &grid) {
     if (grid.width() < 3) return 0.5;
-    const Imath::Box2i whole = grid.box();
-    const Tiles tiles({whole.min + Imath::V2i(1, 0), whole.max - Imath::V2i(1, 0)},
+    const PositionBox whole = grid.box();
+    const Tiles tiles(PositionBox{whole.min + Imath::V2i(1, 0), whole.max - Imath::V2i(1, 0)},
                       FinishTuning::noise_block_px);
     std::vector<double> shares;
     for (std::size_t b = 0; b < tiles.count(); ++b) {
-        const Imath::Box2i box = tiles.box(b);
+        const PositionBox box = tiles.box(b);
         double own = 0, all = 0;
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) {
-                const std::size_t i = grid.index(x, y);
+        for (int y = box.min.row; y <= box.max.row; ++y)
+            for (int x = box.min.column; x <= box.max.column; ++x) {
+                const std::size_t i = grid.index(Position(x, y));
                 const double one = double(bend(first, i)), apart = one - double(bend(second, i)),
                              product = (one - double(bend(gathered, i))) * apart;
                 if (!std::isfinite(product) || !std::isfinite(apart)) continue;
@@ -273,7 +275,7 @@ Values mapped(std::span<const half> values) {
 } // namespace
 
 NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> second,
-                        std::span<const half> gathered, const Grid &grid) {
+                        std::span<const half> gathered, const ArrayGrid &grid) {
     const Values a = mapped(first), b = mapped(second), g = mapped(gathered);
     const auto width = std::size_t(grid.width());
     std::size_t told = 0, equal = 0, excess = 0, equal_excess = 0;

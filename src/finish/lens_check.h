@@ -51,7 +51,7 @@ struct NoiseOfTwo {
 };
 
 NoiseOfTwo noise_of_two(std::span<const half> first, std::span<const half> second,
-                        std::span<const half> gathered, const Grid &grid);
+                        std::span<const half> gathered, const ArrayGrid &grid);
 
 // Compares the lenses and cameras of a gathered picture and a render by their headers. Returns the differences in
 // words: of the aperture's radius, blades (0: none), rotation and squeeze, of the focus distance, of where the camera

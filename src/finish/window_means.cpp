@@ -61,7 +61,7 @@ void means_of_lanes(float *values, std::size_t length, std::size_t along, std::s
         for (std::size_t k = 0; k < count; ++k) values[i * along + k * across] = line[i][k];
 }
 
-void means(std::span<float> values, const Grid &grid, int radius, int passes) {
+void means(std::span<float> values, const ArrayGrid &grid, int radius, int passes) {
     const auto width = std::size_t(grid.width()), height = std::size_t(grid.height());
     parallel_ranges(height, lanes, [&](std::size_t begin, std::size_t end) {
         means_of_lanes(values.data() + begin * width, width, 1, width, end - begin, radius, passes);
@@ -73,9 +73,9 @@ void means(std::span<float> values, const Grid &grid, int radius, int passes) {
 
 } // namespace
 
-void box_mean(std::span<float> values, const Grid &grid, int radius) { means(values, grid, radius, 1); }
+void box_mean(std::span<float> values, const ArrayGrid &grid, int radius) { means(values, grid, radius, 1); }
 
-void soft_mean(std::span<float> values, const Grid &grid, int radius) { means(values, grid, radius, 3); }
+void soft_mean(std::span<float> values, const ArrayGrid &grid, int radius) { means(values, grid, radius, 3); }
 
 namespace {
 
@@ -95,7 +95,7 @@ FOR_PROCESSORS void mix(const float *__restrict first, const float *__restrict s
 
 } // namespace
 
-Cells::Cells(const Grid &pixels, int side)
+Cells::Cells(const ArrayGrid &pixels, int side)
     : pixels_(pixels), grid_(pieces_of(pixels.width(), side), pieces_of(pixels.height(), side)),
       side_(std::size_t(side)) {
     assert(side_ == 1 || side_ == 2 || side_ == 4 || side_ == 8);

@@ -54,11 +54,11 @@ inline float brightness(const Colours &colours, std::size_t i) {
 // plane stays constant.
 
 // The mean over a square of side 2 radius + 1, in place. `values` holds a value for each pixel of `grid`; radius >= 0.
-void box_mean(std::span<float> values, const Grid &grid, int radius);
+void box_mean(std::span<float> values, const ArrayGrid &grid, int radius);
 
 // Three box means in succession, in place: nearly a Gaussian of standard deviation sqrt(radius (radius + 1)), by the
 // central limit theorem.
-void soft_mean(std::span<float> values, const Grid &grid, int radius);
+void soft_mean(std::span<float> values, const ArrayGrid &grid, int radius);
 
 // Square cells of pixels. Sums over windows of many pixels change little from one pixel to the next, so they are
 // computed for cells and interpolated between the middles of cells.
@@ -70,10 +70,10 @@ using Run = std::array<float, run_length>;
 class Cells {
 public:
     // `side`: 1, 2, 4 or 8 pixels. Cells at the right and lower border may be smaller.
-    Cells(const Grid &pixels, int side);
+    Cells(const ArrayGrid &pixels, int side);
 
-    const Grid &pixels() const { return pixels_; }
-    const Grid &grid() const { return grid_; } // of the cells
+    const ArrayGrid &pixels() const { return pixels_; }
+    const ArrayGrid &grid() const { return grid_; } // of the cells
     std::size_t side() const { return side_; }
     std::size_t row_of(std::size_t y) const { return y / side_; }
     // The pixel rows of a row of cells: the first, and the one after the last.
@@ -90,7 +90,7 @@ public:
     void interpolate(const Values &plane, std::size_t y, std::vector<float> &pixels) const;
 
 private:
-    Grid pixels_, grid_;
+    ArrayGrid pixels_, grid_;
     std::size_t side_;
 };
 

@@ -173,8 +173,9 @@ bool seems_unpremultiplied(const Ldi &ldi, const PictureChoice &choice) {
 OpenedLdi prepare_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     const bool deep = file.deep;
     OpenedLdi opened = with_camera(std::move(file), path, options);
-    const auto warning = deep ? normalized_warning(options.depth, opened.ldi.z)
-                              : normalized_warning(options.depth, opened.ldi.z, opened.ldi.windows.grid());
+    const auto warning =
+        deep ? normalized_warning(options.depth, opened.ldi.z)
+             : normalized_warning(options.depth, opened.ldi.z, opened.ldi.windows.grid().array());
     if (warning) opened.warnings.push_back(*warning);
     if (!deep) opened.unpremultiplied = seems_unpremultiplied(opened.ldi, options.depth.picture);
     if (options.depth.meaning == DepthMeaning::disparity)

@@ -54,7 +54,7 @@ OpenedView prepare_view(FlatFile file, const std::string &path, const OpenOption
     const Camera own = opened_camera(opened.header, view.name, options.camera, view.image.windows);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
-    if (const auto warning = normalized_warning(options.depth, view.z, view.image.windows.grid()))
+    if (const auto warning = normalized_warning(options.depth, view.z, view.image.windows.grid().array()))
         opened.warnings.push_back(*warning);
     const DepthReader read(view.image.windows, options.depth.meaning,
                            depth_range(options.depth, opened.header), frustum);
@@ -82,7 +82,7 @@ std::optional<double> number_in(const Imf::Header &header, std::initializer_list
     return {};
 }
 
-bool are_inverse(const Grid &grid, std::span<const float> depths) {
+bool are_inverse(const ArrayGrid &grid, std::span<const float> depths) {
     const Image no_channels(windows_of_size(grid.width(), grid.height()), {});
     return looks_inverse(slopes_of_depth({"", no_channels, {depths.begin(), depths.end()}}));
 }
@@ -123,7 +123,7 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
 }
 
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
-                                              const Grid &grid) {
+                                              const ArrayGrid &grid) {
     if (options.meaning == DepthMeaning::planar && looks_white_near(grid, depths) &&
         !are_inverse(grid, depths)) // which has another warning
         return "its depths lie from 0 to 1 and seem to be white near: if they are, give `depth=normalized` "

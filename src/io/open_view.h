@@ -56,7 +56,7 @@ DepthRange depth_range(const DepthOptions &options, const Imf::Header &header);
 // 1. For a flat picture of that grid it also warns if they bend like depths that are white near (picture_checks.h).
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths);
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
-                                              const Grid &grid);
+                                              const ArrayGrid &grid);
 
 // The camera that the options state, else that of the header, for which it throws as read_perspective_camera() does.
 // The values of OpenOptions::lens are not applied. `windows` are the picture's.

@@ -153,7 +153,8 @@ PixelMask mask_of(const RequestedView &view) {
     if (view.mask.empty()) {
         for (const Imath::Box2i &box : view.rectangles)
             for (int y = box.min.y; y <= box.max.y; ++y)
-                std::fill_n(&mask.set[mask.index(box.min.x, y)], Grid(box).width(), std::uint8_t(1));
+                std::fill_n(&mask.set[mask.index(Imath::V2i(box.min.x, y))], Grid(box).width(),
+                            std::uint8_t(1));
         return mask;
     }
     const Image image = read_flat_exr(view.mask).image;
@@ -162,7 +163,7 @@ PixelMask mask_of(const RequestedView &view) {
     for (int y = mask.data.min.y; y <= mask.data.max.y; ++y)
         for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
             if (image.windows.data.intersects(Imath::V2i(x, y)))
-                mask.set[mask.index(x, y)] = image.at(alpha, x, y) > 0;
+                mask.set[mask.index(Imath::V2i(x, y))] = image.at(alpha, x, y) > 0;
     return mask;
 }
 

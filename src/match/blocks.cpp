@@ -142,7 +142,7 @@ private:
     void for_each(const Each &each) const {
         for (int y = box_.min.y; y <= box_.max.y; ++y)
             for (int x = box_.min.x; x <= box_.max.x; ++x) {
-                const std::size_t i = gathered_.grid.index(x, y);
+                const std::size_t i = gathered_.grid.index(Imath::V2i(x, y));
                 if (usable_[i]) each(i, x, y);
             }
     }
@@ -150,8 +150,8 @@ private:
     // The mean of R, G and B; the border repeats beyond it.
     double value(int x, int y) const {
         const Imath::Box2i all = gathered_.grid.box();
-        const std::size_t i =
-            gathered_.grid.index(std::clamp(x, all.min.x, all.max.x), std::clamp(y, all.min.y, all.max.y));
+        const std::size_t i = gathered_.grid.index(
+            Imath::V2i(std::clamp(x, all.min.x, all.max.x), std::clamp(y, all.min.y, all.max.y)));
         return double(gathered_.rgb[0][i] + gathered_.rgb[1][i] + gathered_.rgb[2][i]) / 3;
     }
 
@@ -304,10 +304,10 @@ std::pair<Rgb, Rgb> motion_changes(const Rgb &of) {
         for (int y = box.min.y; y <= box.max.y; ++y)
             for (int x = box.min.x; x <= box.max.x; ++x) {
                 const auto at = [&](int dx, int dy) {
-                    return of.rgb[k][of.grid.index(std::clamp(x + dx, box.min.x, box.max.x),
-                                                   std::clamp(y + dy, box.min.y, box.max.y))];
+                    return of.rgb[k][of.grid.index(Imath::V2i(std::clamp(x + dx, box.min.x, box.max.x),
+                                                              std::clamp(y + dy, box.min.y, box.max.y)))];
                 };
-                const std::size_t i = of.grid.index(x, y);
+                const std::size_t i = of.grid.index(Imath::V2i(x, y));
                 along.rgb[k][i] = (at(1, 0) + at(-1, 0) - at(0, 1) - at(0, -1)) / 4;
                 across.rgb[k][i] = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 8;
             }

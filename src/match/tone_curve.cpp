@@ -83,7 +83,7 @@ std::vector<Point> mean_points(const std::vector<float> &plate, std::span<const 
 template <typename Visit>
 void for_each_pixel(const Grid &grid, const Imath::Box2i &box, const Visit &visit) {
     for (int y = box.min.y; y <= box.max.y; ++y)
-        for (int x = box.min.x; x <= box.max.x; ++x) visit(grid.index(x, y));
+        for (int x = box.min.x; x <= box.max.x; ++x) visit(grid.index(Imath::V2i(x, y)));
 }
 
 // Joins neighbouring points until the curve rises everywhere.

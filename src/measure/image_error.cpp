@@ -204,19 +204,19 @@ std::array<LumaPlanes, 2> add_pixel_errors(const Image &image, const Image &refe
     return luma;
 }
 
-void add_similarity(const std::array<LumaPlanes, 2> &luma, const Grid &pixels, const PixelSets &sets,
+void add_similarity(const std::array<LumaPlanes, 2> &luma, const ArrayGrid &pixels, const PixelSets &sets,
                     std::vector<RowSums> &rows) {
     const auto map_of = [&](const LumaPlanes &of) {
         return ssim_map(of.image, of.reference, pixels.width(), pixels.height());
     };
     const SsimMap ssim = map_of(luma[0]), ssim_srgb = map_of(luma[1]);
-    const Grid windows(ssim.width, ssim.height);
+    const ArrayGrid windows(ssim.width, ssim.height);
     parallel_for(std::size_t(ssim.height), [&](std::size_t y) {
         for (int x = 0; x < ssim.width; ++x) {
-            const std::size_t window = windows.index(x, int(y));
+            const std::size_t window = windows.index(Position(x, int(y)));
             const double value = ssim.values[window];
             if (std::isnan(value)) continue; // the window holds a pixel that is not finite
-            const std::size_t centre = pixels.index(x + ssim.centre_x, int(y) + ssim.centre_y);
+            const std::size_t centre = pixels.index(Position(x + ssim.centre_x, int(y) + ssim.centre_y));
             for (std::size_t set = 0; set < sets.count; ++set) {
                 if (!sets.holds(set, centre)) continue;
                 rows[y][set].ssim[0] += value;
@@ -258,7 +258,8 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     const int width = image.windows.width(), height = image.windows.height();
     std::vector<RowSums> rows(std::size_t(height), RowSums(sets.count));
     Blocks blocks(sets.count);
-    add_similarity(add_pixel_errors(image, reference, sets, rows, blocks), Grid(width, height), sets, rows);
+    add_similarity(add_pixel_errors(image, reference, sets, rows, blocks), ArrayGrid(width, height), sets,
+                   rows);
     std::vector<ErrorFigures> figures(sets.count);
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;

@@ -52,7 +52,7 @@ void lower_envelope(std::span<const double> f, double spacing, std::span<double>
 }
 
 // -r^2 at both pixels of each jump, where r is their reach; infinity elsewhere.
-std::vector<double> jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
+std::vector<double> jumps(std::span<const float> c, const ArrayGrid &grid, double pixel_aspect) {
     // A disc that covers the picture is large enough; larger ones would only cost precision.
     const double largest = grid.width() + grid.height() / pixel_aspect;
     std::vector<double> reach(c.size(), infinity);
@@ -65,26 +65,26 @@ std::vector<double> jumps(std::span<const float> c, const Grid &grid, double pix
     };
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
-            if (x + 1 < grid.width()) mark(grid.index(x, y), grid.index(x + 1, y));
-            if (y + 1 < grid.height()) mark(grid.index(x, y), grid.index(x, y + 1));
+            if (x + 1 < grid.width()) mark(grid.index(Position(x, y)), grid.index(Position(x + 1, y)));
+            if (y + 1 < grid.height()) mark(grid.index(Position(x, y)), grid.index(Position(x, y + 1)));
         }
     return reach;
 }
 
 // The discs around the jumps: values <= 0 lie inside.
-std::vector<double> grown_jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
+std::vector<double> grown_jumps(std::span<const float> c, const ArrayGrid &grid, double pixel_aspect) {
     std::vector<double> field = jumps(c, grid, pixel_aspect);
     const std::size_t width = std::size_t(grid.width()), height = std::size_t(grid.height());
     parallel_for(height, [&](std::size_t y) {
-        const std::span row = std::span(field).subspan(grid.index(0, int(y)), width);
+        const std::span row = std::span(field).subspan(grid.index(Position(0, int(y))), width);
         const std::vector<double> before(row.begin(), row.end());
         lower_envelope(before, 1, row);
     });
     parallel_for(width, [&](std::size_t x) {
         std::vector<double> before(height), after(height);
-        for (std::size_t y = 0; y < height; ++y) before[y] = field[grid.index(int(x), int(y))];
+        for (std::size_t y = 0; y < height; ++y) before[y] = field[grid.index(Position(int(x), int(y)))];
         lower_envelope(before, 1 / pixel_aspect, after);
-        for (std::size_t y = 0; y < height; ++y) field[grid.index(int(x), int(y))] = after[y];
+        for (std::size_t y = 0; y < height; ++y) field[grid.index(Position(int(x), int(y)))] = after[y];
     });
     return field;
 }
@@ -92,7 +92,7 @@ std::vector<double> grown_jumps(std::span<const float> c, const Grid &grid, doub
 } // namespace
 
 std::vector<std::uint8_t> region_bits(std::span<const float> c, int width, int height, double pixel_aspect) {
-    const std::vector<double> silhouettes = grown_jumps(c, Grid(width, height), pixel_aspect);
+    const std::vector<double> silhouettes = grown_jumps(c, ArrayGrid(width, height), pixel_aspect);
     std::vector<std::uint8_t> bits(c.size());
     for (std::size_t i = 0; i < c.size(); ++i) {
         const float size = std::abs(c[i]);
@@ -111,7 +111,7 @@ std::vector<std::uint8_t> bits_over(std::span<const std::uint8_t> bits, const Wi
         for (int x = target.data.min.x; x <= target.data.max.x; ++x, ++i) {
             const Imath::V2i p = Imath::V2i(x, y) + shift;
             if (!from.data.intersects(p)) continue;
-            result[i] = bits[from.index(p.x, p.y)];
+            result[i] = bits[from.index(p)];
         }
     return result;
 }

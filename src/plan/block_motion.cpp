@@ -27,7 +27,7 @@ bool same_surface(float a, float b) {
 // The brightness of some pixels of a view, averaged over squares, and their depths; not a number in squares that show
 // several surfaces. Each surface is slightly blurred, so that it changes little within a fraction of a square.
 struct Reduced {
-    Grid grid; // of squares
+    ArrayGrid grid; // of squares
     std::vector<double> values;
     std::vector<float> depths;
 
@@ -37,11 +37,11 @@ struct Reduced {
         const std::vector<double> all = brightness(view.image);
         std::vector<double> squares(grid.size());
         parallel_for(squares.size(), [&](std::size_t i) {
-            const Imath::V2i corner = box.min + grid.pixel(i) * side;
-            depths[i] = view.z[view.image.windows.index(corner.x, corner.y)];
+            const Imath::V2i corner = box.min + (grid.position(i) - Position()) * side;
+            depths[i] = view.z[view.image.windows.index(corner)];
             for (int y = corner.y; y < corner.y + side; ++y)
                 for (int x = corner.x; x < corner.x + side; ++x) {
-                    const std::size_t pixel = view.image.windows.index(x, y);
+                    const std::size_t pixel = view.image.windows.index(Imath::V2i(x, y));
                     squares[i] += all[pixel] / (side * side);
                     if (!same_surface(view.z[pixel], depths[i]))
                         depths[i] = std::numeric_limits<float>::quiet_NaN();
@@ -52,13 +52,13 @@ struct Reduced {
 
 private:
     double blurred(const std::vector<double> &squares, std::size_t i) const {
-        const Imath::V2i at = grid.pixel(i);
         double sum = 0, weights = 0;
-        for (int y = at.y - 1; y <= at.y + 1; ++y)
-            for (int x = at.x - 1; x <= at.x + 1; ++x) {
-                if (!grid.contains(x, y) || !same_surface(depths[grid.index(x, y)], depths[i])) continue;
-                const double weight = (2 - std::abs(x - at.x)) * (2 - std::abs(y - at.y));
-                sum += weight * squares[grid.index(x, y)];
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const Position at = grid.position(i) + Imath::V2i(dx, dy);
+                if (!grid.contains(at) || !same_surface(depths[grid.index(at)], depths[i])) continue;
+                const double weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
+                sum += weight * squares[grid.index(at)];
                 weights += weight;
             }
         return sum / weights;
@@ -68,15 +68,14 @@ private:
 // Finds the surface in the middle of a block of one picture in another one.
 class Search {
 public:
-    Search(const Reduced &from, const Reduced &to, const Imath::V2i &corner, const Imath::V2d &expected)
+    Search(const Reduced &from, const Reduced &to, const Position &corner, const Imath::V2d &expected)
         : from_(from), to_(to), corner_(corner),
           expected_(int(std::lround(expected.x)), int(std::lround(expected.y))),
           reach_(from.grid.width() / PlanTuning::motion_reach) {
-        const float middle =
-            from.depths[from.grid.index(corner.x + block_size / 2, corner.y + block_size / 2)];
+        const float middle = from.depths[from.grid.index(corner + Imath::V2i(block_size / 2))];
         for (int y = 0; y < block_size; ++y)
             for (int x = 0; x < block_size; ++x)
-                if (same_surface(from.depths[from.grid.index(corner.x + x, corner.y + y)], middle))
+                if (same_surface(from.depths[from.grid.index(corner + Imath::V2i(x, y))], middle))
                     surface_.push_back({x, y});
         most_ = most_different();
     }
@@ -101,7 +100,7 @@ private:
     double most_different() const {
         double sum = 0, squares = 0;
         for (const Imath::V2i &at : surface_) {
-            const double value = from_.values[from_.grid.index(corner_.x + at.x, corner_.y + at.y)];
+            const double value = from_.values[from_.grid.index(corner_ + at)];
             sum += value;
             squares += value * value;
         }
@@ -114,15 +113,12 @@ private:
     // The mean square of the difference of what both pictures show of the surface; infinite if that is too little.
     double different(const Imath::V2i &by) const {
         constexpr double nothing = std::numeric_limits<double>::infinity();
-        const Imath::V2i to = corner_ + by;
-        if (!to_.grid.contains(to.x, to.y) ||
-            !to_.grid.contains(to.x + block_size - 1, to.y + block_size - 1))
-            return nothing;
+        const Position to = corner_ + by;
+        if (!to_.grid.contains(to) || !to_.grid.contains(to + Imath::V2i(block_size - 1))) return nothing;
         double squares = 0;
         int count = 0;
         for (const Imath::V2i &at : surface_) {
-            const std::size_t a = from_.grid.index(corner_.x + at.x, corner_.y + at.y),
-                              b = to_.grid.index(to.x + at.x, to.y + at.y);
+            const std::size_t a = from_.grid.index(corner_ + at), b = to_.grid.index(to + at);
             if (!same_surface(from_.depths[a], to_.depths[b])) continue;
             const double difference = from_.values[a] - to_.values[b];
             squares += difference * difference;
@@ -166,7 +162,8 @@ private:
     }
 
     const Reduced &from_, &to_;
-    Imath::V2i corner_, expected_;
+    Position corner_;
+    Imath::V2i expected_;
     int reach_;
     std::vector<Imath::V2i> surface_; // its pixels in the block
     double most_ = 0;
@@ -174,8 +171,8 @@ private:
 
 // The displacement of a block, if the way back leads to where it came from. It does not if something has covered it.
 // Along an edge, both searches miss by the same fraction of a square in the same direction: their difference is exact.
-std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &second,
-                                         const Imath::V2i &corner, const Imath::V2d &expected) {
+std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &second, const Position &corner,
+                                         const Imath::V2d &expected) {
     const auto there = Search(first, second, corner, expected).displacement();
     if (!there) return {};
     const auto back = Search(second, first, corner + there->whole, -expected).displacement();
@@ -186,14 +183,15 @@ std::optional<Imath::V2d> there_and_back(const Reduced &first, const Reduced &se
 using Displacements = std::vector<std::optional<Imath::V2d>>;
 
 // Whether enough of the blocks around have moved alike.
-bool agrees(const Displacements &found, const Grid &blocks, const Imath::V2i &at) {
-    const Imath::V2d own = *found[blocks.index(at.x, at.y)];
+bool agrees(const Displacements &found, const ArrayGrid &blocks, std::size_t i) {
+    const Imath::V2d own = *found[i];
     const double most = PlanTuning::alike_pixels + PlanTuning::alike_share * own.length();
     int alike = -1; // itself
-    for (int y = at.y - 1; y <= at.y + 1; ++y)
-        for (int x = at.x - 1; x <= at.x + 1; ++x) {
-            if (!blocks.contains(x, y)) continue;
-            const auto &other = found[blocks.index(x, y)];
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            const Position at = blocks.position(i) + Imath::V2i(dx, dy);
+            if (!blocks.contains(at)) continue;
+            const auto &other = found[blocks.index(at)];
             alike += other && (*other - own).length() <= most;
         }
     return alike >= PlanTuning::least_alike;
@@ -207,20 +205,20 @@ std::vector<BlockMotion> block_motions(const View &first, const View &second,
     if (common.isEmpty()) return {};
     const int side = pieces_of(common.max.x - common.min.x + 1, PlanTuning::motion_width);
     const Reduced a(first, common, side), b(second, common, side);
-    const Grid blocks(a.grid.width() / block_size, a.grid.height() / block_size);
+    const ArrayGrid blocks(a.grid.width() / block_size, a.grid.height() / block_size);
     Displacements found(blocks.size());
     const auto box = [&](std::size_t i) {
-        const Imath::V2i corner = common.min + blocks.pixel(i) * block_size * side;
+        const Imath::V2i corner = common.min + (blocks.position(i) - Position()) * block_size * side;
         return Imath::Box2i(corner, corner + Imath::V2i(block_size * side - 1));
     };
     parallel_for(blocks.size(), [&](std::size_t i) {
         const Imath::V2d by = expected((box(i).min + box(i).max) / 2) / side;
         if (std::max(std::abs(by.x), std::abs(by.y)) < a.grid.width()) // else it has left the picture
-            found[i] = there_and_back(a, b, blocks.pixel(i) * block_size, by);
+            found[i] = there_and_back(a, b, Position() + (blocks.position(i) - Position()) * block_size, by);
     });
     std::vector<BlockMotion> motions;
     for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i] && agrees(found, blocks, blocks.pixel(i))) motions.push_back({box(i), *found[i] * side});
+        if (found[i] && agrees(found, blocks, i)) motions.push_back({box(i), *found[i] * side});
     return motions;
 }
 
@@ -231,8 +229,8 @@ double least_coc(const View &view, const ThinLens &lens, const Imath::Box2i &box
     double least = std::numeric_limits<double>::infinity();
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x)
-            least = std::min(
-                least, std::abs(circle_of_confusion(lens, double(view.z[view.image.windows.index(x, y)]))));
+            least = std::min(least, std::abs(circle_of_confusion(
+                                        lens, double(view.z[view.image.windows.index(Imath::V2i(x, y))]))));
     return least;
 }
 

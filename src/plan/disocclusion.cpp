@@ -30,11 +30,11 @@ public:
             for (int column = 0; column < grid_.width(); ++column)
                 if (std::isfinite(depth(column, row))) move(column, row, moved);
         for (int row = 0; row < grid_.height(); ++row)
-            open_edge({shift_.x < 0 ? grid_.width() - 1 : 0, row}, {shift_.x < 0 ? -1 : 1, 0},
+            open_edge(Position(shift_.x < 0 ? grid_.width() - 1 : 0, row), {shift_.x < 0 ? -1 : 1, 0},
                       std::abs(shift_.x) * nearest_along(shift_.x < 0 ? grid_.width() - 1 : 0, row, 0, 1),
                       moved);
         for (int column = 0; column < grid_.width(); ++column)
-            open_edge({column, shift_.y < 0 ? grid_.height() - 1 : 0}, {0, shift_.y < 0 ? -1 : 1},
+            open_edge(Position(column, shift_.y < 0 ? grid_.height() - 1 : 0), {0, shift_.y < 0 ? -1 : 1},
                       std::abs(shift_.y) * nearest_along(column, shift_.y < 0 ? grid_.height() - 1 : 0, 1, 0),
                       moved);
         return moved;
@@ -52,13 +52,14 @@ private:
         return nearest;
     }
 
-    void open_edge(Imath::V2i at, const Imath::V2i &inwards, double pixels, MovedDepth &moved) const {
-        for (int i = 0; i < int(std::min(std::ceil(pixels), 1e9)) && in_frame(at.x, at.y); ++i, at += inwards)
-            moved.edge.set[grid_.index(at.x, at.y)] = 1;
+    void open_edge(Position at, const Imath::V2i &inwards, double pixels, MovedDepth &moved) const {
+        for (int i = 0; i < int(std::min(std::ceil(pixels), 1e9)) && grid_.contains(at);
+             ++i, at = at + inwards)
+            moved.edge.set[grid_.index(at)] = 1;
     }
 
-    double depth(int column, int row) const { return depth_[grid_.index(column, row)]; }
-    bool in_frame(int column, int row) const { return grid_.contains(column, row); }
+    double depth(int column, int row) const { return depth_[grid_.index(Position(column, row))]; }
+    bool in_frame(int column, int row) const { return grid_.contains(Position(column, row)); }
 
     // How much deeper the neighbour (dx, dy) is, if both are one surface.
     std::optional<double> step(int column, int row, int dx, int dy) const {
@@ -89,7 +90,7 @@ private:
         const int y0 = within(box.min.y, grid_.height()), y1 = within(box.max.y, grid_.height());
         for (int to_y = y0; to_y < y1; ++to_y)
             for (int to_x = x0; to_x < x1; ++to_x) {
-                const std::size_t to = grid_.index(to_x, to_y);
+                const std::size_t to = grid_.index(Position(to_x, to_y));
                 moved.depth[to] = std::max(moved.depth[to], float(d));
                 const bool near =
                     to_x >= own.min.x && to_x < own.max.x && to_y >= own.min.y && to_y < own.max.y;
@@ -98,7 +99,7 @@ private:
     }
 
     Imath::Box2i data_;
-    Grid grid_;                 // the window, from its corner
+    ArrayGrid grid_;            // the window, from its corner
     Imath::V2d shift_;          // for disparity 1, pixels, y down
     std::vector<double> depth_; // disparities
 };
@@ -139,27 +140,27 @@ PixelMask unseen_by_centre(const MovedDepth &moved) {
 PixelMask pixels_that_show(const MovedDepth &moved, const PixelMask &of_centre, const ThinLens &lens,
                            const Imath::V2d &u) {
     PixelMask mask(of_centre.data);
-    const Grid grid(mask.width(), mask.height());
+    const ArrayGrid grid = mask.grid().array();
     for (std::size_t i = 0; i < mask.set.size(); ++i) {
         const double depth = moved.depth[i];
         if (depth == MovedDepth::nothing) continue;
-        const Imath::V2i at = grid.pixel(i);
-        const int x = int(std::lround(at.x + depth * u.x)),
-                  y = int(std::lround(at.y - depth * u.y * lens.pixel_aspect));
-        mask.set[i] = grid.contains(x, y) && of_centre.set[grid.index(x, y)];
+        const Position at = grid.position(i),
+                       from(int(std::lround(at.column + depth * u.x)),
+                            int(std::lround(at.row - depth * u.y * lens.pixel_aspect)));
+        mask.set[i] = grid.contains(from) && of_centre.set[grid.index(from)];
     }
     return mask;
 }
 
 PixelMask without_slits(const PixelMask &mask) {
     PixelMask wide = mask;
-    const Grid grid(mask.width(), mask.height());
+    const ArrayGrid grid = mask.grid().array();
     const auto slit = [&](std::size_t i, std::size_t step) {
         return !mask.set[i - step] && !mask.set[i + step];
     };
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
-            const std::size_t i = grid.index(x, y);
+            const std::size_t i = grid.index(Position(x, y));
             const bool across = x > 0 && x < grid.width() - 1 && slit(i, 1);
             const bool down = y > 0 && y < grid.height() - 1 && slit(i, std::size_t(grid.width()));
             if (across || down) wide.set[i] = 0;
@@ -169,25 +170,26 @@ PixelMask without_slits(const PixelMask &mask) {
 
 PixelMask grown(const PixelMask &mask, int margin) {
     PixelMask rows(mask.data), both(mask.data);
-    const Grid grid(mask.width(), mask.height());
+    const ArrayGrid grid = mask.grid().array();
     for (int y = 0; y < grid.height(); ++y)
-        grow_line(&mask.set[grid.index(0, y)], &rows.set[grid.index(0, y)], grid.width(), 1, margin);
+        grow_line(&mask.set[grid.index(Position(0, y))], &rows.set[grid.index(Position(0, y))], grid.width(),
+                  1, margin);
     for (int x = 0; x < grid.width(); ++x)
-        grow_line(&rows.set[grid.index(x, 0)], &both.set[grid.index(x, 0)], grid.height(),
+        grow_line(&rows.set[grid.index(Position(x, 0))], &both.set[grid.index(Position(x, 0))], grid.height(),
                   std::size_t(grid.width()), margin);
     return both;
 }
 
 double share_at_edges(const Windows &windows, std::span<const float> z, const ThinLens &lens) {
-    const Grid grid(windows.width(), windows.height());
-    const auto depth = [&](int x, int y) { return disparity(lens, double(z[grid.index(x, y)])); };
+    const ArrayGrid grid = windows.grid().array();
+    const auto depth = [&](int x, int y) { return disparity(lens, double(z[grid.index(Position(x, y))])); };
     std::vector<std::size_t> edges(std::size_t(grid.height())); // by row
     parallel_for(edges.size(), [&](std::size_t row) {
         const int y = int(row);
         for (int x = 0; x < grid.width(); ++x) {
             const double own = depth(x, y);
             const auto torn = [&](int u, int v) {
-                return grid.contains(u, v) && std::abs(depth(u, v) - own) > double(torn_px);
+                return grid.contains(Position(u, v)) && std::abs(depth(u, v) - own) > double(torn_px);
             };
             edges[row] += torn(x - 1, y) || torn(x + 1, y) || torn(x, y - 1) || torn(x, y + 1);
         }
@@ -216,7 +218,7 @@ std::vector<Imath::Box2i> boxes_of_band(const PixelMask &mask, int first_row, in
     std::vector<Imath::Box2i> boxes;
     for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
         for (int y = first_row; y <= last_row; ++y) {
-            if (!mask.at(x, y)) continue;
+            if (!mask.at(Imath::V2i(x, y))) continue;
             if (boxes.empty() || x - boxes.back().max.x > PlanTuning::rectangle_gap) boxes.emplace_back();
             boxes.back().extendBy(Imath::V2i(x, y));
         }

@@ -9,6 +9,7 @@
 #include "../base/image.h"
 #include "../lens/thin_lens.h"
 
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,8 +26,8 @@ struct PixelMask {
     Grid grid() const { return Grid(data); }
     int width() const { return grid().width(); }
     int height() const { return grid().height(); }
-    std::size_t index(int x, int y) const { return grid().index(x, y); }
-    bool at(int x, int y) const { return set[index(x, y)] != 0; }
+    std::size_t index(const std::same_as<Imath::V2i> auto &pixel) const { return grid().index(pixel); }
+    bool at(const std::same_as<Imath::V2i> auto &pixel) const { return set[index(pixel)] != 0; }
     std::size_t count() const;
 };
 

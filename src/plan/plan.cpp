@@ -32,22 +32,22 @@ struct Candidate {
 std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const PixelMask &hidden,
                                             const Imath::V2d &u, double pixel_aspect) {
     const Imath::V2d step(u.x, -u.y * pixel_aspect);
-    const Grid grid(hidden.width(), hidden.height());
+    const ArrayGrid grid(hidden.width(), hidden.height());
     const double longest = 2.0 * std::max(grid.width(), grid.height());
     std::vector<std::uint32_t> places;
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
-            if (!hidden.set[grid.index(x, y)]) continue;
+            if (!hidden.set[grid.index(Position(x, y))]) continue;
             float behind = MovedDepth::nothing;
             for (double t = 1; behind == MovedDepth::nothing && t < longest; ++t) {
                 const int at_x = int(std::lround(x + t * step.x)), at_y = int(std::lround(y + t * step.y));
-                if (!grid.contains(at_x, at_y)) break;
-                behind = moved.depth[grid.index(at_x, at_y)];
+                if (!grid.contains(Position(at_x, at_y))) break;
+                behind = moved.depth[grid.index(Position(at_x, at_y))];
             }
             const double depth = std::max(behind, 0.0f);
             const double place_x = std::round(x + depth * step.x), place_y = std::round(y + depth * step.y);
             if (place_x < 0 || place_y < 0 || place_x >= grid.width() || place_y >= grid.height()) continue;
-            places.push_back(std::uint32_t(grid.index(int(place_x), int(place_y))));
+            places.push_back(std::uint32_t(grid.index(Position(int(place_x), int(place_y)))));
         }
     std::ranges::sort(places);
     places.erase(std::unique(places.begin(), places.end()), places.end());

@@ -49,7 +49,7 @@ void ShutterMean::grow(const Imath::Box2i &data) {
     const Windows &before = sum_.windows;
     for (std::size_t i = 0; i < before.pixels(); ++i) {
         const Imath::V2i at = before.pixel(i);
-        const std::size_t to = windows.index(at.x, at.y);
+        const std::size_t to = windows.index(at);
         for (std::size_t k = 0; k < grown.channels.size(); ++k) grown.plane(k)[to] = sum_.plane(k)[i];
         for (std::size_t m = 0; m < mattes_.size(); ++m) coverages[m][to] = std::move(coverages_[m][i]);
     }
@@ -59,7 +59,8 @@ void ShutterMean::grow(const Imath::Box2i &data) {
 
 void ShutterMean::add_row(const Image &picture, int y, double weight, bool is_middle) {
     const int x0 = picture.windows.data.min.x;
-    const std::size_t from = picture.windows.index(x0, y), to = sum_.windows.index(x0, y);
+    const std::size_t from = picture.windows.index(Imath::V2i(x0, y)),
+                      to = sum_.windows.index(Imath::V2i(x0, y));
     const auto width = std::size_t(picture.windows.width());
     for (std::size_t k = 0; k < picture.channels.size(); ++k) {
         const Channel &channel = picture.channels[k];
@@ -80,7 +81,7 @@ void ShutterMean::add_row(const Image &picture, int y, double weight, bool is_mi
 
 void ShutterMean::divide_row(int y) {
     const double all = double(weights_[weighted_row(y)]);
-    const std::size_t begin = sum_.windows.index(sum_.windows.data.min.x, y);
+    const std::size_t begin = sum_.windows.index(Imath::V2i(sum_.windows.data.min.x, y));
     const auto width = std::size_t(sum_.windows.width());
     for (std::size_t k = 0; k < sum_.channels.size(); ++k)
         if (!holds_ids(sum_.channels[k]) && !is_in_matte(sum_.channels[k]))

@@ -33,10 +33,11 @@ struct Nearer {
 
 Nearer nearer_around(const FlatPixels &picture, int x, int y) {
     Nearer nearer;
-    const float limit = picture.z[picture.grid.index(x, y)] / far_beyond;
+    const float limit = picture.z[picture.grid.index(Position(x, y))] / far_beyond;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.grid.height() - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.grid.width() - 1); ++u)
-            if (const std::size_t i = picture.grid.index(u, v); picture.z[i] < limit && picture.opaque(i))
+            if (const std::size_t i = picture.grid.index(Position(u, v));
+                picture.z[i] < limit && picture.opaque(i))
                 nearer.pixel[nearer.count++] = i;
     return nearer;
 }
@@ -61,7 +62,7 @@ float middle_depth(const FlatPixels &picture, const Nearer &nearer) {
 // Calls visit(x, y, nearer) for the opaque pixels of a row with at least `least` nearer neighbours.
 template <typename Visit>
 void for_each_far(const FlatPixels &picture, int y, std::size_t least, const Visit &visit) {
-    const std::size_t first = picture.grid.index(0, y);
+    const std::size_t first = picture.grid.index(Position(0, y));
     const auto width = std::size_t(picture.grid.width());
     const auto nearer_than = [&](std::size_t x, float limit) { return picture.z[first + x] < limit; };
     for (std::size_t x = 0; x < width; ++x) {
@@ -88,7 +89,7 @@ bool has_speckles(const FlatPixels &picture) {
                                                  {0, 0}); // others, speckles
     parallel_for(rows.size(), [&](std::size_t row) {
         for_each_far(picture, int(row), lone, [&](int x, int y, const Nearer &nearer) {
-            ++rows[row][has_colour_of(picture, picture.grid.index(x, y), nearer) &&
+            ++rows[row][has_colour_of(picture, picture.grid.index(Position(x, y)), nearer) &&
                         are_at_one_depth(picture, nearer)];
         });
     });
@@ -105,7 +106,7 @@ std::size_t repair_once(const FlatPixels &picture, std::span<float> z) {
     const auto depths = joined(std::size_t(picture.grid.height()), [&](std::size_t row) {
         std::vector<std::pair<std::size_t, float>> of_row;
         for_each_far(picture, int(row), most_around, [&](int x, int y, const Nearer &nearer) {
-            const std::size_t own = picture.grid.index(x, y);
+            const std::size_t own = picture.grid.index(Position(x, y));
             if (has_colour_of(picture, own, nearer)) of_row.emplace_back(own, middle_depth(picture, nearer));
         });
         return of_row;

@@ -19,7 +19,7 @@ namespace sparselens {
 
 // Refers to the picture.
 struct FlatPixels {
-    Grid grid;                                      // origin at the picture's corner
+    ArrayGrid grid;                                 // origin at the picture's corner
     std::array<std::span<const float>, 3> rgb = {}; // empty: no such channel
     std::span<const float> alpha = {};              // empty: all are covered
     std::span<const float> z = {};
@@ -39,7 +39,7 @@ FlatPixels flat_pixels(const Windows &windows, std::span<const Channel> channels
                        const Plane &plane) {
     const std::array rgb = find_rgb(channels);
     const std::size_t alpha = find_channel(channels, "A");
-    FlatPixels pixels{.grid = Grid(windows.width(), windows.height()), .z = z};
+    FlatPixels pixels{.grid = ArrayGrid(windows.width(), windows.height()), .z = z};
     for (std::size_t k = 0; k < rgb.size(); ++k)
         if (rgb[k] != npos) pixels.rgb[k] = plane(rgb[k]);
     if (alpha != npos) pixels.alpha = plane(alpha);

@@ -50,7 +50,8 @@ Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double in
         const Imath::Box2i &data = view.windows.data;
         if (!kernels::lies_in(seen.x, data.min.x, data.max.x)) continue;
         if (!kernels::lies_in(seen.y, data.min.y, data.max.y)) continue;
-        const std::size_t pixel = view.windows.index(int(std::floor(seen.x)), int(std::floor(seen.y)));
+        const std::size_t pixel =
+            view.windows.index(Imath::V2i(int(std::floor(seen.x)), int(std::floor(seen.y))));
         count_votes(view, alpha, pixel, inverse_z, tolerance, past, votes);
     }
     return votes;
@@ -85,8 +86,7 @@ public:
         const Imath::V2i at = ldi_.windows.pixel(pixel);
         const ViewSamples &centre = views_.samples(0);
         const bool in_frame = centre.windows.data.intersects(at);
-        if (!last ||
-            (in_frame && lets_through(centre, alpha_, centre.pixel(centre.windows.index(at.x, at.y)))))
+        if (!last || (in_frame && lets_through(centre, alpha_, centre.pixel(centre.windows.index(at)))))
             return;
         std::vector<Part> past;
         const Votes votes = ask(at, *last, past);

@@ -33,8 +33,7 @@ inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Im
     if (!kernels::lies_in(towards.x, frame.min.x, frame.max.x)) return false;
     if (!kernels::lies_in(towards.y, frame.min.y, frame.max.y)) return false;
     const Imath::V2i pixel(int(std::floor(seen.x)), int(std::floor(seen.y)));
-    return !windows.data.intersects(pixel) ||
-           views.samples(view).pixel(windows.index(pixel.x, pixel.y)).empty();
+    return !windows.data.intersects(pixel) || views.samples(view).pixel(windows.index(pixel)).empty();
 }
 
 // Whether some view has no pixel where it would see the surface of these samples, because it was not rendered there.

@@ -63,7 +63,7 @@ std::vector<float> least_around(const std::vector<float> &values, const Grid &gr
 std::optional<float> Sights::OfPixels::at(const Imath::V2d &place) const {
     if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
     const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
-    if (grid.contains(pixel.x, pixel.y)) return values[grid.index(pixel.x, pixel.y)];
+    if (grid.contains(pixel)) return values[grid.index(pixel)];
     return display.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
 }
 
@@ -121,8 +121,7 @@ std::vector<bool> samples_of_lamps(const Ldi &ldi) {
     });
     for (const CompactLamp &lamp : find_compact_lamps(ldi.windows.grid(), brightest))
         for (const Imath::V2i &at : lamp.pixels)
-            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y)))
-                marks[i] = light(i) > lamp.limit;
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at))) marks[i] = light(i) > lamp.limit;
     return marks;
 }
 
@@ -136,7 +135,7 @@ public:
     std::vector<Hidden> from_row(int y) const {
         std::vector<Hidden> found;
         for (int x = frame_.min.x; x <= frame_.max.x; ++x)
-            for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(x, y))) {
+            for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(Imath::V2i(x, y)))) {
                 if (!is_surface(i) || lamps_[i]) continue;
                 for (const Imath::V2i &step : sides_of_pixel)
                     if (!surface_at(Imath::V2i(x, y) + step, depth_of(i))) follow(i, {x, y}, step, found);
@@ -161,8 +160,7 @@ private:
             if (!is_behind(at, depth, n) || (is_last && !has_farther(at, depth)) ||
                 !sights_.are_hidden(Imath::V2d(at) + Imath::V2d(0.5), depth, -double(one_surface_px)))
                 return;
-            found.push_back(
-                {ldi_.windows.index(at.x, at.y), n, depth, {sample, lamps_[before] ? sample : before}});
+            found.push_back({ldi_.windows.index(at), n, depth, {sample, lamps_[before] ? sample : before}});
         }
     }
     double depth_of(std::uint64_t i) const { return disparity(sights_.scale, double(ldi_.z[i])); }
@@ -176,7 +174,7 @@ private:
         if (!frame_.intersects(at)) return {};
         std::optional<std::uint64_t> nearest;
         double least = double(one_surface_px);
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at)))
             if (const double apart = std::abs(depth_of(i) - depth); apart <= least && is_surface(i)) {
                 nearest = i;
                 least = apart;
@@ -185,14 +183,14 @@ private:
     }
     // Whether a pixel has something farther.
     bool has_farther(const Imath::V2i &at, double depth) const {
-        const SampleRange there = ldi_.pixel(ldi_.windows.index(at.x, at.y));
+        const SampleRange there = ldi_.pixel(ldi_.windows.index(at));
         return !there.empty() && depth_of(there.to - 1) < depth;
     }
     // Whether a surface lies, n pixels after its end, behind something nearer, and a lens point may look there.
     bool is_behind(const Imath::V2i &at, double depth, int n) const {
         if (!(depth > 0) || !frame_.intersects(at) || surface_at(at, depth)) return false;
         double nearer = 0; // by how much the farthest sample before it is nearer
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at)))
             if (covers(i) && depth_of(i) > depth) nearer = depth_of(i) - depth;
         return is_seen_behind(n, nearer);
     }

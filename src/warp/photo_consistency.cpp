@@ -20,7 +20,7 @@ public:
     bool plain(int x, int y) const {
         const Imath::Box2i &data = centre_.windows.data;
         if (x <= data.min.x || x >= data.max.x || y <= data.min.y || y >= data.max.y) return false;
-        return single(grid_.index(x, y)) &&
+        return single(grid_.index(Imath::V2i(x, y))) &&
                std::ranges::all_of(around(x, y), [&](std::size_t i) { return single(i); });
     }
     // A value, the mean of the four around it, and the gradient.
@@ -33,13 +33,14 @@ public:
         std::ranges::transform(around(x, y), beside.begin(),
                                [&](std::size_t i) { return value_at(i, channel); });
         const auto [left, right, above, below] = beside;
-        return {value_at(grid_.index(x, y), channel), (left + right + above + below) / 4,
+        return {value_at(grid_.index(Imath::V2i(x, y)), channel), (left + right + above + below) / 4,
                 Imath::V2d(right - left, below - above) / 2};
     }
 
 private:
     std::array<std::size_t, 4> around(int x, int y) const {
-        return {grid_.index(x - 1, y), grid_.index(x + 1, y), grid_.index(x, y - 1), grid_.index(x, y + 1)};
+        return {grid_.index(Imath::V2i(x - 1, y)), grid_.index(Imath::V2i(x + 1, y)),
+                grid_.index(Imath::V2i(x, y - 1)), grid_.index(Imath::V2i(x, y + 1))};
     }
     bool single(std::size_t i) const { return centre_.is_single(i); }
     double value_at(std::size_t i, std::size_t channel) const {
@@ -91,9 +92,9 @@ Disagreement disagreement_of(std::uint32_t verdict) {
 PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const PhotoConsistencyOptions &options,
                                         const Imath::Box2i &data, const Surfaces &surfaces) {
     const int width = Grid(data).width();
-    const Grid grid(width, int(surfaces.pixels() / std::size_t(width)));
+    const ArrayGrid grid(width, int(surfaces.pixels() / std::size_t(width)));
     const Tiles tiles(grid.box(), kernels::photo_block);
-    const auto block_of = [&](std::size_t pixel) { return tiles.tile_of(grid.pixel(pixel)); };
+    const auto block_of = [&](std::size_t pixel) { return tiles.tile_of(grid.position(pixel)); };
     const CentreColours centre(views.samples(0));
     std::vector<kernels::PhotoBlock> blocks(tiles.count());
     for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)

@@ -46,7 +46,7 @@ void mark(const ViewSamples &view, const Imath::V2d &place, double inverse_z, do
     for (int v = y; v <= y + 1; ++v)
         for (int u = x; u <= x + 1; ++u) {
             if (!view.windows.data.intersects(Imath::V2i(u, v))) continue;
-            const std::size_t pixel = view.windows.index(u, v);
+            const std::size_t pixel = view.windows.index(Imath::V2i(u, v));
             if (inverse_z > 1 / double(view.z(pixel)) - tolerance) mixed[pixel] = true;
         }
 }
@@ -154,7 +154,7 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
 ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row,
                                         ReprojectedRows rows) const {
     const Grid grid(Imath::Box2i({data.min.x, first_row}, {data.max.x, last_row}));
-    const auto pixel_of = [&](const ReprojectedSample &s) { return grid.index(s.x, s.y); };
+    const auto pixel_of = [&](const ReprojectedSample &s) { return grid.index(Imath::V2i(s.x, s.y)); };
     const auto outside = [&](const ReprojectedSample &s) { return s.x < data.min.x || s.x > data.max.x; };
     rows.first_row = first_row;
     rows.begin.assign(grid.size() + 1, 0);
@@ -188,7 +188,7 @@ Reprojection::Reprojection(const ViewSamples &view, const ViewMapping &mapping)
         double nearest = std::numeric_limits<double>::infinity();
         const int row_y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x)
-            for (const std::uint64_t i : view_.pixel(view_.windows.index(x, row_y)))
+            for (const std::uint64_t i : view_.pixel(view_.windows.index(Imath::V2i(x, row_y))))
                 nearest = std::min(nearest, double(view_.z(i)));
         // Positions are linear in the column and in 1 / z, so the extremes lie at the ends of both.
         const double y = row_y + 0.5;
@@ -213,7 +213,7 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
         if (!may_reach(row, first_row, last_row)) continue;
         const int from_y = data.min.y + int(row);
         for (int from_x = data.min.x; from_x <= data.max.x; ++from_x) {
-            const std::size_t pixel = grid.index(from_x, from_y);
+            const std::size_t pixel = grid.index(Imath::V2i(from_x, from_y));
             if (view_.pixel(pixel).empty()) continue;
             const Imath::V2d q(from_x + 0.5, from_y + 0.5);
             const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);

@@ -85,20 +85,21 @@ Separation::Separation(const ViewSamples &view, double scale, double jump,
       others_(others), mattes_(find_mattes(view.channels)) {
     sides_.assign(view.windows.pixels(), inside);
     if (!samples_.have_colours()) return;
-    const Grid &grid = samples_.grid();
+    const ArrayGrid &grid = samples_.grid();
     const bool full = view.count(0, std::size_t(grid.height())) == grid.size();
     parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
         if (full) return find_sides_of_full_row(int(y));
         for (int x = 0; x < grid.width(); ++x)
-            if (!samples_.is_empty(grid.index(x, int(y)))) sides_[own_sample(x, int(y))] = side_of(x, int(y));
+            if (!samples_.is_empty(grid.index(Position(x, int(y)))))
+                sides_[own_sample(x, int(y))] = side_of(x, int(y));
     });
 }
 
 // The same as side_of() for a row of a view without empty pixels, by the least and most depths around.
 void Separation::find_sides_of_full_row(int y) {
-    const Grid &grid = samples_.grid();
+    const ArrayGrid &grid = samples_.grid();
     const auto width = std::size_t(grid.width());
-    const auto row = [&](int at) { return samples_.depths().subspan(grid.index(0, at), width); };
+    const auto row = [&](int at) { return samples_.depths().subspan(grid.index(Position(0, at)), width); };
     const std::span<const double> above = row(std::max(y - 1, 0)), own = row(y),
                                   below = row(std::min(y + 1, grid.height() - 1));
     std::vector<double> least(width), most(width); // along y
@@ -112,7 +113,7 @@ void Separation::find_sides_of_full_row(int y) {
         const std::size_t left = x > 0 ? x - 1 : x, right = x + 1 < width ? x + 1 : x;
         const bool nearer = std::max({most[left], most[x], most[right]}) > own[x] + jump_;
         const bool farther = std::min({least[left], least[x], least[right]}) < own[x] - jump_;
-        sides_[grid.index(int(x), y)] =
+        sides_[grid.index(Position(int(x), y))] =
             static_cast<unsigned char>(nearer * has_nearer | farther * has_farther);
     }
 }
@@ -240,7 +241,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
 }
 
 bool Separation::is_of_crossed_lamp(int x, int y) const {
-    return std::ranges::binary_search(crossed_lamps_, samples_.grid().index(x, y));
+    return std::ranges::binary_search(crossed_lamps_, samples_.grid().index(Position(x, y)));
 }
 
 // Treats a lamp's own pixel. The pixels around may tell how much of it is covered by what crosses the lamp, which shows
@@ -270,8 +271,8 @@ bool Separation::may_be_mixed(std::size_t pixel) const {
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     const std::uint64_t own = view_.pixel(pixel).front();
-    const Imath::V2i at = samples_.grid().pixel(pixel);
-    if (const auto mixture = find(at.x, at.y)) emit_mixture(own, *mixture, out);
+    const Position at = samples_.grid().position(pixel);
+    if (const auto mixture = find(at.column, at.row)) emit_mixture(own, *mixture, out);
 }
 
 } // namespace

@@ -204,7 +204,7 @@ SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel) {
     if (!centre.deep() || data.intersects(pixel)) return {0, 0};
     for (int axis = 0; axis < 2; ++axis)
         pixel[axis] = std::clamp(pixel[axis], data.min[axis], data.max[axis]);
-    const SampleRange nearest = centre.pixel(centre.windows.index(pixel.x, pixel.y));
+    const SampleRange nearest = centre.pixel(centre.windows.index(pixel));
     return nearest.empty() || !centre.is_part(nearest.front()) ? SampleRange{0, 0} : nearest;
 }
 

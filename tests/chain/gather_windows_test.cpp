@@ -200,8 +200,7 @@ TEST(HoldoutFor, IsAsLargeAsTheLdiOrAsThePicture) {
     const Ldi fine = holdout_for(in, {.supersample = 2}, coarse, "holdout");
     EXPECT_EQ(fine.windows.data, Imath::Box2i({0, 0}, {191, 127}));
     for (const Imath::V2i &at : {Imath::V2i(0, 0), Imath::V2i(191, 127), Imath::V2i(57, 100)})
-        EXPECT_EQ(fine.z[fine.pixel(fine.windows.index(at.x, at.y)).front()],
-                  float(1 + at.x / 2 + 100 * (at.y / 2)));
+        EXPECT_EQ(fine.z[fine.pixel(fine.windows.index(at)).front()], float(1 + at.x / 2 + 100 * (at.y / 2)));
     EXPECT_THROW(holdout_for(in, {}, coarse, "holdout"), Error);
     EXPECT_EQ(holdout_for(in, {.proxy = 2, .supersample = 2}, coarse, "holdout").windows.display,
               Imath::Box2i({0, 0}, {47, 31}));

@@ -106,7 +106,7 @@ TEST(TakeMoments, AreWeightedByTheCurve) {
 
 // Light of the card and of the plane, their alpha, and the coverages of their ids each add up to one.
 void expect_whole(const Image &picture, int x, int y) {
-    const std::size_t pixel = picture.windows.index(x, y);
+    const std::size_t pixel = picture.windows.index(Imath::V2i(x, y));
     const double front = coverage_in(picture, hashed(1), pixel),
                  back = coverage_in(picture, hashed(2), pixel);
     EXPECT_EQ(picture.at(3, x, y), 1) << x << ' ' << y;

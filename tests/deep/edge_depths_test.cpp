@@ -93,8 +93,8 @@ TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
         return mixed(3, 3.4f, x < 4 ? 1.0f : x > 6 ? 0.0f : x == 4 ? 0.75f : x == 5 ? 0.55f : 0.25f);
     });
     repair_edge_depths(view);
-    EXPECT_EQ(view.z[view.image.windows.index(5, 2)], 3);
-    EXPECT_EQ(view.z[view.image.windows.index(5, 9)], 3);
+    EXPECT_EQ(view.z[view.image.windows.index(Imath::V2i(5, 2))], 3);
+    EXPECT_EQ(view.z[view.image.windows.index(Imath::V2i(5, 9))], 3);
 }
 
 TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {

@@ -103,7 +103,7 @@ protected:
         rows.begin = {0};
         for (int y = first; y <= last; ++y)
             for (int x = 0; x < 9; ++x) {
-                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
+                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y)))) {
                     const auto from = arrays_of(std::as_const(ldi));
                     const auto to = arrays_of(rows);
                     for (std::size_t k = 0; k < to.size(); ++k)
@@ -150,8 +150,9 @@ TEST_F(PackedPicture, PixelsAboveHaveNoSamples) {
     const Ldi rows = with_empty_above(slow_rows(20, 30), 5);
     EXPECT_EQ(rows.windows.data, Imath::Box2i({0, 5}, {8, 30}));
     ASSERT_EQ(rows.begin.size(), rows.windows.pixels() + 1);
-    EXPECT_EQ(rows.begin[rows.windows.index(8, 19) + 1], 0u);
-    EXPECT_EQ(rows.pixel(rows.windows.index(4, 25)).size(), ldi.pixel(ldi.windows.index(4, 25)).size());
+    EXPECT_EQ(rows.begin[rows.windows.index(Imath::V2i(8, 19)) + 1], 0u);
+    EXPECT_EQ(rows.pixel(rows.windows.index(Imath::V2i(4, 25))).size(),
+              ldi.pixel(ldi.windows.index(Imath::V2i(4, 25))).size());
 }
 
 TEST_F(PackedPicture, ChannelsThatAreNotKeptAreForgotten) {

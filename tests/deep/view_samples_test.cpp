@@ -87,7 +87,7 @@ TEST(ViewSamples, ReplacedPixelsHaveTheirNewSamplesAndTheOthersTheirOwn) {
         random_view({Imath::Box2i({0, 0}, {29, 19}), Imath::Box2i({-3, 2}, {71, 30})}, {1, 2}, 5);
     ViewSamples samples(view, view.image.channels);
     const Ldi before = samples.as_ldi();
-    const std::size_t moved = view.image.windows.index(11, 7);
+    const std::size_t moved = view.image.windows.index(Imath::V2i(11, 7));
     if (!samples.pixel(moved).empty()) samples.set_z(samples.pixel(moved).front(), 77);
     const auto number_of = [&](std::size_t pixel) { // number of replacing samples; 0: not replaced
         return before.pixel(pixel).empty() || pixel == moved ? 0 : pixel % 4 == 3 ? pixel / 4 % 3 : 0;

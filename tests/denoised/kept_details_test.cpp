@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(61, 45);
+const Grid grid = windows_of_size(61, 45).grid();
 constexpr double focal_px = 60, radius = 0.1;
 const Imath::V2d places[] = {{0, 0}, {radius, 0}, {0, radius}, {-radius, 0}, {0, -radius}};
 
@@ -54,9 +54,9 @@ double squared_error(const Colours &picture, const Colours &truth) {
 }
 
 TEST(KeptDetails, AreAllOfThemWhereNothingIsNoise) {
-    const Colours truth = synthetic_truth(grid);
+    const Colours truth = synthetic_truth(grid.array());
     Views all(far_away);
-    for (DenoisedLayer &view : all.views) view.noisy = truth, view.denoised = blurred(truth, grid, 2);
+    for (DenoisedLayer &view : all.views) view.noisy = truth, view.denoised = blurred(truth, grid.array(), 2);
     EXPECT_LT(squared_error(all.taken(0), truth), 1e-4 * squared_error(all.views[0].denoised, truth));
 }
 
@@ -69,10 +69,11 @@ TEST(KeptDetails, AreNoNoise) {
 }
 
 TEST(KeptDetails, AreNearerToTheTruthThanEither) {
-    const Colours truth = synthetic_truth(grid);
+    const Colours truth = synthetic_truth(grid.array());
     Views all(far_away);
     for (std::uint32_t v = 0; v < 5; ++v)
-        all.views[v].noisy = rays_of(truth, 16, v + 1), all.views[v].denoised = blurred(truth, grid, 2);
+        all.views[v].noisy = rays_of(truth, 16, v + 1),
+        all.views[v].denoised = blurred(truth, grid.array(), 2);
     const double error = squared_error(all.taken(0), truth);
     EXPECT_LT(error, squared_error(all.views[0].noisy, truth));
     EXPECT_LT(error, 0.5 * squared_error(all.views[0].denoised, truth));
@@ -90,12 +91,13 @@ TEST(KeptDetails, ALampOfLessThanAPixelStays) {
             const int x = int(std::floor(at.x - 0.25)), y = int(std::floor(at.y - 0.25));
             for (Values &channel : all.views[v].noisy) { // half in each of two pixels if it lies between them
                 const bool between = parallax == 2.5f && v > 0;
-                channel[grid.index(x, y)] += between ? 50.0f : 100.0f;
-                if (between) channel[grid.index(x + (v % 2 == 1), y + (v % 2 == 0))] += 50.0f;
+                channel[grid.index(Imath::V2i(x, y))] += between ? 50.0f : 100.0f;
+                if (between) channel[grid.index(Imath::V2i(x + (v % 2 == 1), y + (v % 2 == 0)))] += 50.0f;
             }
         }
-        const float kept = all.taken(0)[1][grid.index(30, 20)];
-        EXPECT_NEAR(kept, all.views[0].noisy[1][grid.index(30, 20)], parallax == 3.0f ? 1.0f : 15.0f)
+        const float kept = all.taken(0)[1][grid.index(Imath::V2i(30, 20))];
+        EXPECT_NEAR(kept, all.views[0].noisy[1][grid.index(Imath::V2i(30, 20))],
+                    parallax == 3.0f ? 1.0f : 15.0f)
             << parallax;
     }
 }
@@ -107,11 +109,11 @@ TEST(KeptDetails, ALampThatEachDenoisedViewShowsDifferentlyStays) {
     for (std::uint32_t v = 0; v < 5; ++v) {
         all.views[v].noisy = rays_of(constant(0.5f), 4, v + 1), all.views[v].denoised = constant(0.5f);
         for (std::size_t c = 0; c < 3; ++c)
-            for (const std::size_t i :
-                 {grid.index(30, 20), grid.index(31, 20), grid.index(30, 21), grid.index(31, 21)})
+            for (const std::size_t i : {grid.index(Imath::V2i(30, 20)), grid.index(Imath::V2i(31, 20)),
+                                        grid.index(Imath::V2i(30, 21)), grid.index(Imath::V2i(31, 21))})
                 all.views[v].noisy[c][i] = 100, all.views[v].denoised[c][i] = factors[v] * 100;
     }
-    EXPECT_NEAR(all.taken(0)[0][grid.index(30, 20)], 100, 10); // the denoised view has 150
+    EXPECT_NEAR(all.taken(0)[0][grid.index(Imath::V2i(30, 20))], 100, 10); // the denoised view has 150
 }
 
 // A denoiser makes a wall without noise a little brighter. Each view has the lamp before another part of the wall.
@@ -128,7 +130,7 @@ TEST(KeptDetails, ALampHidesNothingOfTheWallAroundIt) {
         for (int y = 0; y < grid.height(); ++y)
             for (int x = 0; x < grid.width(); ++x) {
                 if (!shows_lamp(v, x, y)) continue;
-                const std::size_t i = grid.index(x, y);
+                const std::size_t i = grid.index(Imath::V2i(x, y));
                 depths[v][i] = float(focal_px * radius / parallax);
                 for (Values &channel : all.views[v].noisy) channel[i] = 1000;
                 for (Values &channel : all.views[v].denoised) channel[i] = 900;
@@ -138,7 +140,7 @@ TEST(KeptDetails, ALampHidesNothingOfTheWallAroundIt) {
     const Colours taken = all.taken(0);
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x)
-            EXPECT_NEAR(taken[1][grid.index(x, y)], shows_lamp(0, x, y) ? 1000 : 0.02f,
+            EXPECT_NEAR(taken[1][grid.index(Imath::V2i(x, y))], shows_lamp(0, x, y) ? 1000 : 0.02f,
                         shows_lamp(0, x, y) ? 1 : 2e-5f)
                 << x << ' ' << y;
 }
@@ -147,17 +149,17 @@ TEST(KeptDetails, AFireflyOfOneViewGoes) {
     Views all(far_away);
     for (std::uint32_t v = 0; v < 5; ++v)
         all.views[v].denoised = constant(0.5f), all.views[v].noisy = rays_of(constant(0.5f), 4, v + 1);
-    all.views[0].noisy[0][grid.index(30, 20)] = 100;
-    EXPECT_LT(all.taken(0)[0][grid.index(30, 20)], 10);
-    EXPECT_LT(all.taken(1)[0][grid.index(30, 20)], 1);
+    all.views[0].noisy[0][grid.index(Imath::V2i(30, 20))] = 100;
+    EXPECT_LT(all.taken(0)[0][grid.index(Imath::V2i(30, 20))], 10);
+    EXPECT_LT(all.taken(1)[0][grid.index(Imath::V2i(30, 20))], 1);
 }
 
 TEST(KeptDetails, OneViewAloneKeepsItsLamps) {
     Views one(2, 1);
     one.views[0].denoised = constant(0.5f), one.views[0].noisy = rays_of(constant(0.5f), 4, 1);
-    one.views[0].noisy[0][grid.index(30, 20)] = 100;
-    EXPECT_NEAR(one.taken(0)[0][grid.index(30, 20)], 100, 5);
-    one.views[0].noisy[0][grid.index(30, 20)] = 0.5f;
+    one.views[0].noisy[0][grid.index(Imath::V2i(30, 20))] = 100;
+    EXPECT_NEAR(one.taken(0)[0][grid.index(Imath::V2i(30, 20))], 100, 5);
+    one.views[0].noisy[0][grid.index(Imath::V2i(30, 20))] = 0.5f;
     EXPECT_LT(squared_error(one.taken(0), constant(0.5f)),
               0.05 * squared_error(one.views[0].noisy, constant(0.5f)));
 }

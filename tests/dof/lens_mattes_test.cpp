@@ -37,7 +37,7 @@ TEST(LensMattes, AMatteThroughTheLensIsTheDiscOfIt) {
     for (const GatherMethod &method : gather_methods()) {
         const Image picture = gather(half_plane(), method);
         for (int x = 10; x < 70; ++x) {
-            const std::size_t pixel = picture.windows.index(x, 15);
+            const std::size_t pixel = picture.windows.index(Imath::V2i(x, 15));
             const double expected = share_of_disc(8, 40 - (x + 0.5));
             EXPECT_NEAR(coverage_in(picture, hashed(1), pixel), expected, 0.02) << method.name << " " << x;
             EXPECT_NEAR(coverage_in(picture, hashed(2), pixel), 1 - expected, 0.02)

@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(64, 32);
+const Grid grid = windows_of_size(64, 32).grid();
 
 bool is_left(std::size_t i) { return grid.pixel(i).x < 32; }
 
@@ -85,11 +85,11 @@ TEST(AskRays, CountsAreLimited) {
 }
 
 TEST(AskRays, FewRectanglesApartCostAsMuch) {
-    const Grid large(200, 120);
+    const Grid large = windows_of_size(200, 120).grid();
     Values map(large.size(), 1e-6f);
     for (const Imath::V2i &spot : {Imath::V2i(8, 16), {72, 96}, {100, 40}, {184, 8}, {160, 100}})
         for (int y = 0; y < 16; ++y)
-            for (int x = 0; x < 16; ++x) map[large.index(spot.x + x, spot.y + y)] = 1e-3f;
+            for (int x = 0; x < 16; ++x) map[large.index(spot + Imath::V2i(x, y))] = 1e-3f;
     const AskedRays asked = ask_rays({map, 1e-4, 1e-6, 2e-4}, std::array<double, 2>{20, 20}, large, 80);
     double rays = 0, by_rectangles = 0;
     for (const float more : asked.more) rays += double(more);
@@ -102,7 +102,7 @@ TEST(AskRays, FewRectanglesApartCostAsMuch) {
         for (int y = box.min.y; y <= box.max.y; ++y)
             for (int x = box.min.x; x <= box.max.x; ++x) {
                 by_rectangles += samples;
-                covered[large.index(x, y)] += 1;
+                covered[large.index(Imath::V2i(x, y))] += 1;
             }
     }
     EXPECT_NEAR(by_rectangles / double(large.size()), 40, 1);

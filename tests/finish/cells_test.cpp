@@ -27,7 +27,7 @@ Values means(const Cells &cells, const Of &of) {
 
 // Sides that are not multiples of runs and cells.
 TEST(Cells, AreTheMeansOfTheirPixels) {
-    for (const Grid &grid : {Grid(131, 21), Grid(64, 8), Grid(1, 9), Grid(9, 1)})
+    for (const ArrayGrid &grid : {ArrayGrid(131, 21), ArrayGrid(64, 8), ArrayGrid(1, 9), ArrayGrid(9, 1)})
         for (const int side : {1, 2, 4, 8}) {
             const Cells cells(grid, side);
             const auto of = [](int x, int y) { return float(x * 7 % 5) - float(y * 3 % 4); };
@@ -35,18 +35,19 @@ TEST(Cells, AreTheMeansOfTheirPixels) {
             const Tiles tiles(grid.box(), side);
             ASSERT_EQ(found.size(), tiles.count());
             for (std::size_t t = 0; t < tiles.count(); ++t) {
-                const Imath::Box2i box = tiles.box(t);
+                const PositionBox box = tiles.box(t);
                 float sum = 0;
-                for (int y = box.min.y; y <= box.max.y; ++y)
-                    for (int x = box.min.x; x <= box.max.x; ++x) sum += of(x, y);
-                ASSERT_NEAR(found[t], sum / float(Grid(box).size()), 1e-5f) << side << ' ' << t;
+                for (int y = box.min.row; y <= box.max.row; ++y)
+                    for (int x = box.min.column; x <= box.max.column; ++x) sum += of(x, y);
+                const Imath::V2i size = box.max - box.min + Imath::V2i(1);
+                ASSERT_NEAR(found[t], sum / float(size.x * size.y), 1e-5f) << side << ' ' << t;
             }
         }
 }
 
 // A slope is the same slope between the middles of cells, and constant beyond the outermost ones.
 TEST(Cells, SlopesAreInterpolatedExactly) {
-    const Grid grid(64, 24);
+    const ArrayGrid grid(64, 24);
     for (const int side : {1, 2, 4, 8}) {
         const Cells cells(grid, side);
         const Values plane = means(cells, [](int x, int y) { return float(2 * x + 5 * y); });
@@ -63,7 +64,7 @@ TEST(Cells, SlopesAreInterpolatedExactly) {
 }
 
 TEST(Cells, AConstantStaysConstant) {
-    for (const Grid &grid : {Grid(131, 21), Grid(1, 1)})
+    for (const ArrayGrid &grid : {ArrayGrid(131, 21), ArrayGrid(1, 1)})
         for (const int side : {1, 4}) {
             const Cells cells(grid, side);
             const Values plane = means(cells, [](int, int) { return 0.7f; });

@@ -12,7 +12,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(160, 90);
+const ArrayGrid grid(160, 90);
 
 struct Believed {
     Trio pictures;
@@ -57,7 +57,7 @@ constexpr float unit = 1.1e-6f;
 using Colour = std::array<float, 3>;
 float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2> &rays,
               const std::array<double, 2> &samples) {
-    const Grid even(64, 32);
+    const ArrayGrid even(64, 32);
     Halves offered, halves;
     for (std::size_t k = 0; k < 2; ++k)
         for (const float value : candidate[k]) {
@@ -68,7 +68,7 @@ float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2>
     Trio pictures{black, black, black};
     Values kept(even.size(), 1.0f);
     blend_in(pictures, offered, {halves, samples, even}, kept);
-    return pictures[2][2][even.index(32, 16)] / unit;
+    return pictures[2][2][even.index(Position(32, 16))] / unit;
 }
 
 TEST(Trust, RendersTestByTheirSamples) {
@@ -100,7 +100,7 @@ TEST(Trust, UnequalRendersCostTheNoiseOfBoth) {
 
 // Black pixels, for which the first render, of three times the samples, offers 1.
 TEST(CellEvidence, WeighsRendersByTheirSamples) {
-    const Grid few(8, 4);
+    const ArrayGrid few(8, 4);
     const Values none(few.size(), 0.0f), one(few.size(), 1.0f);
     const Halves halves{Colours{one}, Colours{none}};
     const CellEvidence found = evidence_of({Colours{none}, Colours{none}, Colours{none}}, halves,
@@ -111,12 +111,12 @@ TEST(CellEvidence, WeighsRendersByTheirSamples) {
 }
 
 TEST(CellEvidence, EachPixelHasItsSamples) {
-    const Grid few(8, 4);
+    const ArrayGrid few(8, 4);
     const Values none(few.size(), 0.0f), one(few.size(), 1.0f);
     const Halves halves{Colours{one}, Colours{none}};
     RayCounts samples({1, 1}, {Values(few.size(), 6.0f), Values(few.size(), 2.0f)});
     for (std::size_t i = 0; i < few.size(); ++i)
-        if (few.pixel(i).x >= 4) {
+        if (few.position(i).column >= 4) {
             samples.by_pixel[0][i] = 1;
             samples.by_pixel[1][i] = 3;
         }
@@ -136,7 +136,7 @@ TEST(Trust, ManySamplesProveMore) {
     LayerToFinish layer = layer_of(grid, truth, wrong, {1, 1}, 3);
     const LayerToFinish many = layer_of(grid, truth, wrong, {64, 64}, 4);
     RayCounts counts({1, 1}, {Values(grid.size(), 1.0f), Values(grid.size(), 1.0f)});
-    const auto in_quarter = [](std::size_t i) { return grid.pixel(i).x < 40; };
+    const auto in_quarter = [](std::size_t i) { return grid.position(i).column < 40; };
     for (std::size_t i = 0; i < grid.size(); ++i) {
         if (!in_quarter(i)) continue;
         for (std::size_t k = 0; k < 2; ++k) {

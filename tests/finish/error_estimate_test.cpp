@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(240, 135);
+const ArrayGrid grid(240, 135);
 const Colours truth = synthetic_truth(grid);
 
 ErrorEstimate estimated(const LayerToFinish &layer, const FinishedLayer &finished) {
@@ -55,14 +55,14 @@ TEST(ErrorEstimate, EachPixelHasItsSamples) {
 TEST(ErrorEstimate, TheMapShowsWhere) {
     Colours wrong = truth;
     for (int y = 30; y < 60; ++y)
-        for (int x = 100; x < 130; ++x) wrong[1][grid.index(x, y)] += 0.2f;
+        for (int x = 100; x < 130; ++x) wrong[1][grid.index(Position(x, y))] += 0.2f;
     const LayerToFinish layer = layer_of(grid, truth, wrong, {8, 8});
     const ErrorEstimate error = estimated(layer, {wrong, {wrong, wrong}, {}});
     double inside = 0, outside = 0;
     for (int y = 32; y < 58; ++y)
         for (int x = 102; x < 128; ++x) {
-            inside += double(error.map[grid.index(x, y)]);
-            outside += double(error.map[grid.index(x - 70, y)]);
+            inside += double(error.map[grid.index(Position(x, y))]);
+            outside += double(error.map[grid.index(Position(x - 70, y))]);
         }
     EXPECT_GT(inside, 5 * outside);
 }

@@ -13,7 +13,7 @@ namespace sparselens {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-const Grid grid(64, 48);
+const ArrayGrid grid(64, 48);
 const Windows windows = windows_of_size(64, 48);
 const Colours truth = synthetic_truth(grid);
 
@@ -78,11 +78,12 @@ TEST(TwoHalves, RendersOfAPartAddTheirSamplesThere) {
     EXPECT_EQ(halves.missing(), 0u);
     const RayCounts samples = halves.samples();
     EXPECT_EQ(samples.mean, (std::array<double, 2>{35, 25}));
-    EXPECT_EQ(samples.at(grid.index(31, 5)), (std::array<float, 2>{40, 40}));
-    EXPECT_EQ(samples.at(grid.index(32, 5)), (std::array<float, 2>{30, 10}));
+    EXPECT_EQ(samples.at(grid.index(Position(31, 5))), (std::array<float, 2>{40, 40}));
+    EXPECT_EQ(samples.at(grid.index(Position(32, 5))), (std::array<float, 2>{30, 10}));
     const Image one = render(1, 10).image;
     const auto first = halves.take(1)[0];
-    EXPECT_NEAR(first[grid.index(20, 9)], 0.25f * one.at(1, 20, 9) + 0.75f * more.at(1, 20, 9), 1e-5f);
+    EXPECT_NEAR(first[grid.index(Position(20, 9))], 0.25f * one.at(1, 20, 9) + 0.75f * more.at(1, 20, 9),
+                1e-5f);
 }
 
 // A channel of counts: whole numbers, or Cycles' part of the samples.
@@ -144,7 +145,7 @@ TEST(TwoHalves, BordersAreParts) {
     const auto cropped = [&](Image &image) { image = crop(image, border); };
     const auto blackened = [&](Image &image) {
         for (std::size_t i = 0; i < grid.size(); ++i)
-            if (!border.intersects(grid.pixel(i)))
+            if (!border.intersects(image.windows.pixel(i)))
                 for (std::size_t c = 0; c < 4; ++c) image.plane(c)[i] = 0;
     };
     const auto apart = [&](Image &image) {
@@ -172,7 +173,7 @@ TEST(TwoHalves, NothingAroundAnElementIsRendered) {
         Render first = render(1), second = render(2);
         for (Image *image : {&gathered, &first.image, &second.image})
             for (std::size_t i = 0; i < grid.size(); ++i)
-                if (black || !element.intersects(grid.pixel(i)))
+                if (black || !element.intersects(image->windows.pixel(i)))
                     for (std::size_t c = 0; c < 4; ++c) image->plane(c)[i] = 0;
         TwoHalves halves(gathered);
         halves.add_noisy(first);
@@ -373,14 +374,14 @@ TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
     const auto cut_out = [](Image &image) {
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < grid.size(); ++i)
-                if (grid.pixel(i).x >= 32) image.plane(c)[i] = 0;
+                if (grid.position(i).column >= 32) image.plane(c)[i] = 0;
     };
     cut_out(gathered);
     for (Render &r : renders) cut_out(r.image);
     const FinishedPicture result = finished(gathered, renders);
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < grid.size(); ++i)
-            if (grid.pixel(i).x >= 32) {
+            if (grid.position(i).column >= 32) {
                 ASSERT_EQ(result.image.plane(c)[i], 0) << c << ' ' << i;
             }
     for (std::size_t i = 0; i < grid.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(160, 90);
+const ArrayGrid grid(160, 90);
 const Colours truth = synthetic_truth(grid);
 
 TEST(Finish, WhatIsRightStays) {
@@ -47,9 +47,9 @@ TEST(Finish, ManyRaysDecide) {
 // The brighter a pixel, the rarer its ray: a pixel that is bright in only one render must not stay.
 TEST(Finish, AFireflyOfOneRenderIsNotBelieved) {
     LayerToFinish layer = layer_of(grid, truth, truth, {16, 16});
-    for (Values &channel : layer.rays[0]) channel[grid.index(100, 70)] = 500;
+    for (Values &channel : layer.rays[0]) channel[grid.index(Position(100, 70))] = 500;
     const FinishedLayer result = finished(layer);
-    for (const Values &channel : result.picture) EXPECT_LT(channel[grid.index(100, 70)], 2);
+    for (const Values &channel : result.picture) EXPECT_LT(channel[grid.index(Position(100, 70))], 2);
 }
 
 TEST(Finish, AnyFiniteValueGivesFiniteOnes) {

@@ -10,7 +10,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(96, 64);
+const ArrayGrid grid(96, 64);
 
 // Each render has 16 rays and a seed of its own.
 FrameOfLayer frame_of(const Colours &truth, const Colours &gathered, std::uint32_t seed) {
@@ -41,8 +41,9 @@ Colours moved(const Colours &truth, int by) {
     Colours result = truth;
     for (std::size_t c = 0; c < truth.size(); ++c)
         for (std::size_t i = 0; i < grid.size(); ++i) {
-            const Imath::V2i at = grid.pixel(i);
-            result[c][i] = truth[c][grid.index(std::clamp(at.x - by, 0, grid.width() - 1), at.y)];
+            const Position at = grid.position(i);
+            result[c][i] =
+                truth[c][grid.index(Position(std::clamp(at.column - by, 0, grid.width() - 1), at.row))];
         }
     return result;
 }
@@ -109,8 +110,8 @@ TEST(FramesAround, WeightsLieBetweenNoneAndAll) {
         for (std::size_t c = 0; c < 3; ++c)
             for (int x = 10; x < 30; ++x) {
                 const bool lamp = x > 20 && x < 24;
-                frame.rays[0][c][grid.index(x, 30)] = lamp ? first : 1e-5f * float(x);
-                frame.rays[1][c][grid.index(x, 30)] = lamp ? second / float(x) : 1e-5f / float(x);
+                frame.rays[0][c][grid.index(Position(x, 30))] = lamp ? first : 1e-5f * float(x);
+                frame.rays[1][c][grid.index(Position(x, 30))] = lamp ? second / float(x) : 1e-5f / float(x);
             }
         return frame;
     };

@@ -12,7 +12,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(160, 90);
+const ArrayGrid grid(160, 90);
 const Colours truth = blurred(synthetic_truth(grid), grid, 1);
 
 Colours times(Colours colours, float factor) {
@@ -26,9 +26,8 @@ Colours moved(const Colours &colours, int dx, int dy) {
     Colours result = colours;
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < grid.size(); ++i) {
-            const Imath::V2i at = grid.pixel(i);
-            result[c][i] =
-                (colours[c][i] + colours[c][grid.index(std::max(at.x - dx, 0), std::max(at.y - dy, 0))]) / 2;
+            const Position at = grid.position(i), from(std::max(at.column - dx, 0), std::max(at.row - dy, 0));
+            result[c][i] = (colours[c][i] + colours[c][grid.index(from)]) / 2;
         }
     return result;
 }
@@ -68,7 +67,7 @@ TEST(LensCheck, HalfAPixelIsNamed) {
 TEST(LensCheck, LightThatTheGatheredPictureLacksIsNoExposure) {
     Colours bright = truth;
     for (std::size_t i = 0; i < grid.size(); ++i)
-        if (const Imath::V2i at = grid.pixel(i); at.x < 40 && at.y < 60)
+        if (const Position at = grid.position(i); at.column < 40 && at.row < 60)
             for (Values &channel : bright) channel[i] *= 3;
     EXPECT_EQ(check_lens(layer_of(grid, bright, truth, {16, 16})).warnings(), std::vector<std::string>());
 }
@@ -83,7 +82,8 @@ TEST(LensCheck, LampsThatFewRaysMissAreNoExposure) {
         std::mt19937 random(7);
         std::poisson_distribution<int> hits(samples / 1000);
         for (std::size_t i = 0; i < grid.size(); ++i) {
-            if ((grid.pixel(i).x / 40 + grid.pixel(i).y / 30) % 2 == 0) continue;
+            const Position at = grid.position(i);
+            if ((at.column / 40 + at.row / 30) % 2 == 0) continue;
             for (Values &channel : layer.gathered) channel[i] += 0.4f;
             for (Colours &rays : layer.rays) {
                 const float light = 0.4f * 1000 / float(samples) * float(hits(random));
@@ -103,7 +103,7 @@ TEST(LensCheck, WhatLampsLackIsNoShift) {
     for (int y = 8; y < 90; y += 16)
         for (int x = 8; x < 160; x += 16)
             for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t lamp = grid.index(x, y);
+                const std::size_t lamp = grid.index(Position(x, y));
                 for (Values *values : {&layer.gathered[c], &layer.rays[0][c], &layer.rays[1][c]})
                     (*values)[lamp] = 100;
                 for (Colours &rays : layer.rays) rays[c][lamp + 1] = 40;
@@ -120,7 +120,7 @@ TEST(LensCheck, BlackAndTinyPicturesAreFine) {
     const Colours black(3, Values(grid.size(), 0.0f));
     EXPECT_TRUE(check_lens({grid, black, {black, black}}).warnings().empty());
     const Colours dot(3, Values(1, 1.0f));
-    EXPECT_TRUE(check_lens({Grid(1, 1), dot, {dot, dot}}).warnings().empty());
+    EXPECT_TRUE(check_lens({ArrayGrid(1, 1), dot, {dot, dot}}).warnings().empty());
 }
 
 // Channel 1 of two renders and of a gathered picture.
@@ -169,15 +169,15 @@ TEST(NoiseOfTwo, MultiplesAreTheSameNoise) {
 // A rectangle of many samples where the gathered picture lacks a lamp or a texture: the renders are good.
 TEST(NoiseOfTwo, AWrongGatheredPictureDoesNotMakeNoiseTheSame) {
     for (const auto &size : {Imath::V2i(48, 8), {8, 8}, {3, 3}}) {
-        const Grid small(size.x, size.y);
+        const ArrayGrid small(size.x, size.y);
         for (const float lamp : {0.0f, 20.0f, 500.0f})
             for (const double samples : {1.0, 50.0, 500.0, 5000.0})
                 for (std::uint32_t seed = 1; seed < 20; ++seed) {
                     Colours there(3, Values(small.size()));
                     for (std::size_t i = 0; i < small.size(); ++i)
                         for (Values &channel : there)
-                            channel[i] =
-                                0.3f + 0.1f * std::sin(float(small.pixel(i).x)) + (i == 11 ? lamp : 0);
+                            channel[i] = 0.3f + 0.1f * std::sin(float(small.position(i).column)) +
+                                         (i == 11 ? lamp : 0);
                     const Colours wrong(3, Values(small.size(), 0.3f));
                     const NoiseOfTwo found =
                         noise_of_two(plane(rays_of(there, samples, 2 * seed)),

@@ -7,7 +7,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(48, 32);
+const ArrayGrid grid(48, 32);
 
 Values with(const Values &guide, float a, float b) {
     Values values = guide;
@@ -46,10 +46,10 @@ TEST_F(RegressionTest, SlopesAreLocal) {
     const Values flat(grid.size(), 1.0f);
     Values rays = with(stripes, 0.5f, -2);
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (grid.pixel(i).x >= 24) rays[i] = 0.1f + stripes[i];
+        if (grid.position(i).column >= 24) rays[i] = 0.1f + stripes[i];
     const Values found = Regression(stripes, flat, grid, {1, 2}).of(rays);
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (std::abs(grid.pixel(i).x - 24) > 7) {
+        if (std::abs(grid.position(i).column - 24) > 7) {
             ASSERT_NEAR(found[i], rays[i], 0.02f) << i;
         }
 }

@@ -7,7 +7,7 @@
 namespace sparselens {
 namespace {
 
-const Grid grid(45, 37); // not a multiple of the bands of 16 rows
+const ArrayGrid grid(45, 37); // not a multiple of the bands of 16 rows
 
 TEST(SimilarPixels, AConstantStaysConstant) {
     const Colours guide = synthetic_truth(grid), constant(3, Values(grid.size(), 0.6f));
@@ -35,7 +35,7 @@ TEST(SimilarPixels, AreLinearInTheRays) {
 TEST(SimilarPixels, KeepEdgesOfTheGuide) {
     Colours guide(1, Values(grid.size()));
     for (std::size_t i = 0; i < grid.size(); ++i)
-        guide[0][i] = grid.pixel(i).x > grid.pixel(i).y ? 1.0f : 0.1f;
+        guide[0][i] = grid.position(i).column > grid.position(i).row ? 1.0f : 0.1f;
     const Colours rays = rays_of(guide, 1, 3);
     const Values found = means_of_similar({rays, rays}, guide, grid)[0][0];
     double before = 0, after = 0;

@@ -9,11 +9,11 @@
 
 namespace sparselens {
 
-Colours synthetic_truth(const Grid &grid, int variant) {
+Colours synthetic_truth(const ArrayGrid &grid, int variant) {
     Colours truth(3, Values(grid.size()));
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        const Imath::V2i at =
-            variant == 0 ? grid.pixel(i) : Imath::V2i(grid.height(), grid.width()) - grid.pixel(i);
+        const Position here = grid.position(i);
+        const Imath::V2i at = variant == 0 ? here - Position() : Position(grid.height(), grid.width()) - here;
         const double slope = 0.2 + 0.6 * at.x / grid.width();
         const double texture = 0.15 * std::sin(at.x * 0.7) * std::sin(at.y * 0.45);
         const bool card = std::hypot(at.x - grid.width() / 3, at.y - grid.height() / 2) < grid.height() / 4;
@@ -34,7 +34,7 @@ Colours rays_of(const Colours &truth, double samples, std::uint32_t seed) {
     return rays;
 }
 
-LayerToFinish layer_of(const Grid &grid, const Colours &truth, Colours gathered,
+LayerToFinish layer_of(const ArrayGrid &grid, const Colours &truth, Colours gathered,
                        const std::array<double, 2> &samples, std::uint32_t seed) {
     return {grid,
             std::move(gathered),
@@ -61,7 +61,7 @@ double decibels_of(const Colours &picture, const Colours &truth) {
     return -10 * std::log10(sum / double(truth.size() * truth[0].size()));
 }
 
-Colours blurred(Colours colours, const Grid &grid, int radius) {
+Colours blurred(Colours colours, const ArrayGrid &grid, int radius) {
     for (Values &channel : colours) box_mean(channel, grid, radius);
     return colours;
 }

@@ -9,14 +9,14 @@
 namespace sparselens {
 
 // A picture of `width` x `height` pixels with three channels. Each `variant` is another scene.
-Colours synthetic_truth(const Grid &grid, int variant = 0);
+Colours synthetic_truth(const ArrayGrid &grid, int variant = 0);
 
 // The mean of `samples` rays per pixel. Each ray has a relative standard deviation of 1/2, plus a tenth of that of
 // white.
 Colours rays_of(const Colours &truth, double samples, std::uint32_t seed);
 
 // Both renders of a scene, and the gathered picture.
-LayerToFinish layer_of(const Grid &grid, const Colours &truth, Colours gathered,
+LayerToFinish layer_of(const ArrayGrid &grid, const Colours &truth, Colours gathered,
                        const std::array<double, 2> &samples, std::uint32_t seed = 1);
 
 // The mean, weighted by samples.
@@ -26,7 +26,7 @@ Colours mean_of(const Halves &rays, const std::array<double, 2> &samples);
 double decibels_of(const Colours &picture, const Colours &truth);
 
 // The mean over a square of side 2 radius + 1: an inaccurate gathered picture.
-Colours blurred(Colours colours, const Grid &grid, int radius);
+Colours blurred(Colours colours, const ArrayGrid &grid, int radius);
 
 FinishedLayer finished(const LayerToFinish &layer);
 

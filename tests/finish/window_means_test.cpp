@@ -8,7 +8,7 @@
 namespace sparselens {
 namespace {
 
-Values random_values(const Grid &grid) {
+Values random_values(const ArrayGrid &grid) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(-1, 3);
     Values values(grid.size());
@@ -16,7 +16,7 @@ Values random_values(const Grid &grid) {
     return values;
 }
 
-Values box_mean_slowly(const Values &values, const Grid &grid, int radius) {
+Values box_mean_slowly(const Values &values, const ArrayGrid &grid, int radius) {
     Values means(grid.size());
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
@@ -24,11 +24,11 @@ Values box_mean_slowly(const Values &values, const Grid &grid, int radius) {
             int count = 0;
             for (int v = y - radius; v <= y + radius; ++v)
                 for (int u = x - radius; u <= x + radius; ++u)
-                    if (grid.contains(u, v)) {
-                        sum += double(values[grid.index(u, v)]);
+                    if (grid.contains(Position(u, v))) {
+                        sum += double(values[grid.index(Position(u, v))]);
                         ++count;
                     }
-            means[grid.index(x, y)] = float(sum / count);
+            means[grid.index(Position(x, y))] = float(sum / count);
         }
     return means;
 }
@@ -39,7 +39,7 @@ void expect_near(const Values &found, const Values &expected, float bound) {
 
 // Sides that are not multiples of 16 lanes, and a radius larger than the picture.
 TEST(WindowMeans, AreTheMeansOverTheSquareWithinThePicture) {
-    for (const Grid &grid : {Grid(37, 21), Grid(1, 40), Grid(40, 1), Grid(1, 1)})
+    for (const ArrayGrid &grid : {ArrayGrid(37, 21), ArrayGrid(1, 40), ArrayGrid(40, 1), ArrayGrid(1, 1)})
         for (const int radius : {0, 1, 3, 10, 64}) {
             const Values values = random_values(grid);
             Values box = values, soft = values;
@@ -54,18 +54,18 @@ TEST(WindowMeans, AreTheMeansOverTheSquareWithinThePicture) {
 }
 
 TEST(WindowMeans, AConstantStaysConstant) {
-    const Grid grid(33, 18);
+    const ArrayGrid grid(33, 18);
     Values values(grid.size(), 0.7f);
     soft_mean(values, grid, 5);
     for (const float v : values) EXPECT_FLOAT_EQ(v, 0.7f);
 }
 
 TEST(WindowMeans, ALampLeavesNothingBehind) {
-    const Grid grid(64, 8);
+    const ArrayGrid grid(64, 8);
     Values values(grid.size(), 1e-3f);
-    for (int y = 0; y < 8; ++y) values[grid.index(3, y)] = 1e4f;
+    for (int y = 0; y < 8; ++y) values[grid.index(Position(3, y))] = 1e4f;
     box_mean(values, grid, 2);
-    for (int x = 6; x < 64; ++x) EXPECT_FLOAT_EQ(values[grid.index(x, 4)], 1e-3f) << x;
+    for (int x = 6; x < 64; ++x) EXPECT_FLOAT_EQ(values[grid.index(Position(x, 4))], 1e-3f) << x;
 }
 
 } // namespace

@@ -93,7 +93,7 @@ TEST_F(WarpDeviceTest, MissingViewsAreTheCpus) {
     std::vector<float> depths;
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x)
-            depths.push_back(cropped.z[cropped.image.windows.index(x, y)]);
+            depths.push_back(cropped.z[cropped.image.windows.index(Imath::V2i(x, y))]);
     cropped.image = crop(cropped.image, box);
     cropped.z = depths;
     expect_same(views, averaging);

@@ -166,7 +166,7 @@ TEST_F(Photograph, AlphaIsKeptAndDarkensNoDepth) {
         ASSERT_NE(alpha, npos);
         for (int y = 0; y < height; ++y)
             for (int x = 1; x < width; ++x) {
-                const std::size_t i = cut.windows.index(x, y);
+                const std::size_t i = cut.windows.index(Imath::V2i(x, y));
                 ASSERT_NEAR(read.ldi.values[alpha][i], cut.at(3, x, y), 0.003);
                 ASSERT_NEAR(read.ldi.values[0][i], cut.at(0, x, y), 0.006);
                 ASSERT_NEAR(read.ldi.z[i], float(16 * y + 50) / 255, 0.02) << x;

@@ -75,7 +75,7 @@ TEST(FitBlocks, a_few_wrong_pixels_hardly_count) {
     Grey plate = brightness(
         test::colours(32, 32, [&](double x, double y, std::size_t) { return wave(x - 0.2, y + 0.1); }));
     for (const int x : {3, 4, 5, 6})
-        for (const int y : {2, 3, 4}) plate.values[plate.grid.index(x, y)] = 1;
+        for (const int y : {2, 3, 4}) plate.values[plate.grid.index(Imath::V2i(x, y))] = 1;
     const BlockFit block = fit_blocks(plate, test::all_usable(plate.grid), shown, {}).front();
     EXPECT_NEAR(block.shift_x, 0.2, 0.05);
     EXPECT_NEAR(block.shift_y, -0.1, 0.05);
@@ -114,7 +114,7 @@ TEST(FitBlocks, unusable_pixels_are_not_compared) {
     std::vector<std::uint8_t> usable = test::all_usable(plate.grid);
     for (std::size_t i = 0; i < usable.size(); i += 7) usable[i] = 0, plate.values[i] = 100;
     for (int y = 0; y < 16; ++y)
-        for (int x = 16; x < 24; ++x) usable[plate.grid.index(x, y)] = 0;
+        for (int x = 16; x < 24; ++x) usable[plate.grid.index(Imath::V2i(x, y))] = 0;
     const std::vector<BlockFit> blocks = fit_blocks(plate, usable, shown, {});
     EXPECT_LT(blocks[0].left, 1.001 * least);
     EXPECT_EQ(blocks[1].pixels, 0) << "half of it is unusable";

@@ -45,7 +45,7 @@ TEST(Clipping, only_clipped_channels_are_raised) {
     Rgb plate = lamps(1);
     plate.rgb[2] = test::colours(96, 64, [](double x, double, std::size_t) { return 0.005 * x; }).rgb[2];
     const Rgb result = raised(plate);
-    EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
+    EXPECT_GT(result.rgb[0][plate.grid.index(Imath::V2i(50, 30))], 2);
     EXPECT_EQ(result.rgb[2], plate.rgb[2]);
 }
 
@@ -58,8 +58,8 @@ TEST(Clipping, grain_does_not_hide_it) {
             v = std::min(v + 0.06f * (float(state >> 8) / float(1 << 24) - 0.5f), 1.0f);
         }
     const Rgb result = raised(plate);
-    EXPECT_GT(result.rgb[0][plate.grid.index(50, 30)], 2);
-    EXPECT_LT(result.rgb[0][plate.grid.index(35, 30)], 1);
+    EXPECT_GT(result.rgb[0][plate.grid.index(Imath::V2i(50, 30))], 2);
+    EXPECT_LT(result.rgb[0][plate.grid.index(Imath::V2i(35, 30))], 1);
 }
 
 TEST(Clipping, a_picture_that_fades_to_its_largest_value_has_none) {

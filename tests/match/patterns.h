@@ -1,6 +1,7 @@
 // Pictures in closed form for the tests of src/match.
 #pragma once
 
+#include "base/image.h"
 #include "match/blocks.h"
 #include "match/lens_search.h"
 
@@ -15,7 +16,7 @@ inline std::vector<std::uint8_t> all_usable(const Grid &grid) {
 // The value of each pixel by value(x, y, channel).
 template <typename Value>
 Rgb colours(int width, int height, const Value &value) {
-    Rgb of{Grid(width, height), {}};
+    Rgb of{windows_of_size(width, height).grid(), {}};
     for (std::size_t k = 0; k < 3; ++k)
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) of.rgb[k].push_back(float(value(double(x), double(y), k)));

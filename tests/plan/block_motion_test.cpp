@@ -22,7 +22,7 @@ View view_of(int width, int height, const std::function<Shown(int x, int y)> &sh
         for (int x = 0; x < width; ++x) {
             const Shown shown = shows(x, y);
             for (std::size_t k = 0; k < 4; ++k) view.image.at(k, x, y) = k < 3 ? float(shown.grey) : 1.0f;
-            view.z[windows.index(x, y)] = shown.z;
+            view.z[windows.index(Imath::V2i(x, y))] = shown.z;
         }
     return view;
 }

@@ -24,7 +24,7 @@ MovedDepth moved(const std::function<float(int x, int y)> &z, const Imath::V2d &
 
 std::string row(const PixelMask &mask, int y) {
     std::string text;
-    for (int x = mask.data.min.x; x <= mask.data.max.x; ++x) text += mask.at(x, y) ? '#' : '.';
+    for (int x = mask.data.min.x; x <= mask.data.max.x; ++x) text += mask.at(Imath::V2i(x, y)) ? '#' : '.';
     return text;
 }
 
@@ -38,7 +38,8 @@ TEST(Disocclusion, WhatOpensBesideACard) {
     EXPECT_EQ(row(disoccluded(from_left), 7), std::string(21, '.') + "####" + std::string(35, '.'));
     const MovedDepth from_above = moved([](int, int y) { return y >= 8 && y < 12 ? 2.0f : 10.0f; }, {0, 1});
     // u.y points up and y down: the bar moves down by 5 px, the wall by 1.
-    for (int y = 0; y < 20; ++y) EXPECT_EQ(disoccluded(from_above).at(30, y), y >= 9 && y < 13) << y;
+    for (int y = 0; y < 20; ++y)
+        EXPECT_EQ(disoccluded(from_above).at(Imath::V2i(30, y)), y >= 9 && y < 13) << y;
 }
 
 // A card at the lens itself leaves the picture, whatever its disparity.
@@ -47,7 +48,7 @@ TEST(Disocclusion, WhatIsAtTheLensLeavesThePicture) {
         for (const Imath::V2d &u :
              {Imath::V2d(1, 0), Imath::V2d(-1, 0), Imath::V2d(0, 1), Imath::V2d(0, -1)}) {
             const auto z = [&](int x, int y) { return x >= 20 && x < 30 && y >= 8 && y < 12 ? near : 10.0f; };
-            EXPECT_TRUE(disoccluded(moved(z, u)).at(25, 10)) << near << u;
+            EXPECT_TRUE(disoccluded(moved(z, u)).at(Imath::V2i(25, 10))) << near << u;
         }
 }
 
@@ -88,14 +89,14 @@ TEST(Disocclusion, BeyondTheFrame) {
 
 TEST(Disocclusion, GrowingIsByWholeBoxes) {
     PixelMask mask(Imath::Box2i({-5, -5}, {5, 5}));
-    mask.set[mask.index(-1, 2)] = 1;
-    mask.set[mask.index(5, -5)] = 1;
+    mask.set[mask.index(Imath::V2i(-1, 2))] = 1;
+    mask.set[mask.index(Imath::V2i(5, -5))] = 1;
     const PixelMask big = grown(mask, 2);
     for (int y = -5; y <= 5; ++y)
         for (int x = -5; x <= 5; ++x) {
             const bool near_first = std::max(std::abs(x + 1), std::abs(y - 2)) <= 2;
             const bool near_second = std::max(std::abs(x - 5), std::abs(y + 5)) <= 2;
-            EXPECT_EQ(big.at(x, y), near_first || near_second) << x << ' ' << y;
+            EXPECT_EQ(big.at(Imath::V2i(x, y)), near_first || near_second) << x << ' ' << y;
         }
     EXPECT_EQ(grown(mask, 0).set, mask.set);
 }

@@ -63,7 +63,8 @@ TEST(Plan, AWireAsksForTheColumnItHides) {
     const Plan plan = plan_of(wire, {.views = 2});
     ASSERT_EQ(plan.views.size(), 1u);
     EXPECT_EQ(plan.views[0].uncovered, 60u);
-    for (int x = 10; x < 70; ++x) EXPECT_EQ(plan.views[0].mask.at(x, 30), std::abs(x - 39) <= 1) << x;
+    for (int x = 10; x < 70; ++x)
+        EXPECT_EQ(plan.views[0].mask.at(Imath::V2i(x, 30)), std::abs(x - 39) <= 1) << x;
 }
 
 // Two columns on either side of a bar. Each bar has 8 columns itself and 64 beside it, or 100.
@@ -104,9 +105,9 @@ TEST(Plan, NoiseIsAskedForWhereItIs) {
     EXPECT_FALSE(plan.full_views);
     ASSERT_EQ(plan.views.size(), 2u);
     for (const PlannedView &planned : plan.views) // their disparity is 8
-        for (int x = 12; x < 60; ++x) EXPECT_TRUE(planned.mask.at(x, 30)) << x;
+        for (int x = 12; x < 60; ++x) EXPECT_TRUE(planned.mask.at(Imath::V2i(x, 30))) << x;
     EXPECT_NEAR(double(plan.noisy), 80 * 60, 8 * 60);
-    EXPECT_FALSE(plan.views[0].mask.at(120, 30));
+    EXPECT_FALSE(plan.views[0].mask.at(Imath::V2i(120, 30)));
     EXPECT_EQ(plan_of(view, {.views = 2, .noise = 0}, wide).noisy, 0u);
 }
 
@@ -156,9 +157,9 @@ TEST(PlanFile, MasksAndRectanglesComeBack) {
             std::size_t extra = 0;
             for (int y = asked.data.min.y; y <= asked.data.max.y; ++y)
                 for (int x = asked.data.min.x; x <= asked.data.max.x; ++x) {
-                    const bool there = back.data.intersects(Imath::V2i(x, y)) && back.at(x, y);
-                    EXPECT_TRUE(there || !asked.at(x, y));
-                    extra += there && !asked.at(x, y);
+                    const bool there = back.data.intersects(Imath::V2i(x, y)) && back.at(Imath::V2i(x, y));
+                    EXPECT_TRUE(there || !asked.at(Imath::V2i(x, y)));
+                    extra += there && !asked.at(Imath::V2i(x, y));
                 }
             EXPECT_TRUE(masks.empty() || extra == 0);
         }

@@ -13,7 +13,7 @@ namespace {
 PixelMask mask_of(const std::function<bool(int x, int y)> &set) {
     PixelMask mask(Imath::Box2i({-10, 5}, {309, 204}));
     for (int y = 5; y <= 204; ++y)
-        for (int x = -10; x <= 309; ++x) mask.set[mask.index(x, y)] = set(x, y);
+        for (int x = -10; x <= 309; ++x) mask.set[mask.index(Imath::V2i(x, y))] = set(x, y);
     return mask;
 }
 
@@ -49,7 +49,7 @@ TEST(Rectangles, HoldAllThatIsAskedFor) {
         const auto boxes = rectangles_over(mask);
         EXPECT_LE(boxes.size(), 64u);
         for (int y = 5; y <= 204; ++y)
-            for (int x = -10; x <= 309; ++x) EXPECT_TRUE(!mask.at(x, y) || covered(boxes, x, y));
+            for (int x = -10; x <= 309; ++x) EXPECT_TRUE(!mask.at(Imath::V2i(x, y)) || covered(boxes, x, y));
         for (const Imath::Box2i &box : boxes) {
             EXPECT_TRUE(mask.data.intersects(box.min));
             EXPECT_TRUE(mask.data.intersects(box.max));

@@ -86,7 +86,8 @@ TEST(Balance, AViewRenderedInPartMovesNothing) {
     const WarpOptions options{.focal_px = 100, .radius = 1};
     Progress silent;
     const Ldi whole = warp(views, options, silent);
-    const std::size_t left = whole.windows.index(15, 4), right = whole.windows.index(45, 4);
+    const std::size_t left = whole.windows.index(Imath::V2i(15, 4)),
+                      right = whole.windows.index(Imath::V2i(45, 4));
     EXPECT_NEAR(whole.dx[whole.pixel(left).front()], 0, 1e-5);
     views[2] = part;
     const Ldi ldi = warp(views, options, silent);

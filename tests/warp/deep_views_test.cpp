@@ -29,7 +29,7 @@ Ldi warped_of(std::vector<PackedView> views, const WarpOptions &options = averag
 Ldi deep_of(const View &view) {
     const std::size_t alpha = find_channel(view.image.channels, "A");
     return make_ldi(view.image.windows, view.image.channels, [&](int x, int y) {
-        const std::size_t p = view.image.windows.index(x, y);
+        const std::size_t p = view.image.windows.index(Imath::V2i(x, y));
         if (!(view.z[p] > 0) || view.image.plane(alpha)[p] == 0) return std::vector<Sample>();
         Sample sample{.z = double(view.z[p]), .values = {}};
         for (std::size_t k = 0; k < view.image.channels.size(); ++k)
@@ -99,7 +99,7 @@ TEST(DeepViews, TwoCardsAreSeenThroughBesideFlatViews) {
     const Ldi ldi = warped_of(std::move(views));
     const Ldi expected = constant(windows, two_cards());
     for_each_pixel(ldi.windows.data, [&](int x, int y) { // beyond the frame they continue
-        const SampleRange samples = ldi.pixel(ldi.windows.index(x, y));
+        const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(x, y)));
         ASSERT_EQ(samples.size(), 3u) << x << "," << y;
         for (std::size_t n = 0; n < 3; ++n) {
             EXPECT_EQ(ldi.z[samples.from + n], expected.z[n]);
@@ -123,7 +123,7 @@ TEST(DeepViews, TheCentreKeepsItsCoverageAndColoursAreMeans) {
         covered += double(covers[v]);
     }
     const Ldi ldi = warped_of(std::move(views));
-    const SampleRange samples = ldi.pixel(ldi.windows.index(12, 12));
+    const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(12, 12)));
     ASSERT_EQ(samples.size(), 3u);
     const std::uint64_t card = samples.from + 1;
     EXPECT_EQ(ldi.z[card], 3);
@@ -147,7 +147,7 @@ TEST(DeepViews, CoverageByColourAndIdsStay) {
     views.push_back(view_of(1, 0, 5, places[0]));
     views.push_back(view_of(0, 0.5f, 6, places[1]));
     const Ldi ldi = warped_of(std::move(views));
-    const SampleRange samples = ldi.pixel(ldi.windows.index(10, 12));
+    const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(10, 12)));
     ASSERT_EQ(samples.size(), 2u);
     const std::vector<float> expected{0.125f, 0.1875f, 0, 0.5f, 0.25f, 0.75f, 0.5f, 5};
     for (std::size_t k = 0; k < channels.size(); ++k)
@@ -198,7 +198,7 @@ TEST(DeepViews, VeilsThatOnlyTheRimSeesAreComposited) {
     EXPECT_EQ(hidden[0].z, 2);
     EXPECT_NEAR(hidden[1].alpha, 0.75, 1e-6);
     EXPECT_NEAR(hidden[1].colour, 0.5, 1e-6);
-    EXPECT_NEAR(ldi.values[1][ldi.pixel(ldi.windows.index(19, 1)).from + 1], 0.25, 1e-6);
+    EXPECT_NEAR(ldi.values[1][ldi.pixel(ldi.windows.index(Imath::V2i(19, 1))).from + 1], 0.25, 1e-6);
     EXPECT_EQ(pixel_at(ldi, 15, 1).size(), 1u) << "no view looks there";
 }
 

@@ -63,7 +63,7 @@ struct Sample {
 std::vector<Sample> board_of(const Ldi &ldi, int y = row) {
     std::vector<Sample> samples;
     for (int x = 95; x >= 0; --x)
-        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y)))
+        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y))))
             if (const double depth = scale / double(ldi.z[i]); depth > 8 && depth < 38)
                 samples.push_back({x, depth, ldi.values[0][i]});
     return samples;
@@ -173,7 +173,7 @@ TEST(ContinueSurfaces, ALayerDoesBeforeWhatWasSeenBehindItsEnd) {
 TEST(ContinueSurfaces, LieBehindWhatTheCentreShows) {
     const Ldi ldi = Boards().ldi();
     for (int x = 0; x < 48; ++x) {
-        const SampleRange samples = ldi.pixel(ldi.windows.index(x, row));
+        const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(x, row)));
         ASSERT_FALSE(samples.empty());
         EXPECT_NEAR(scale / double(ldi.z[samples.front()]), 40, 0.01);
         for (std::uint64_t i = samples.from; i + 1 < samples.to; ++i) EXPECT_LE(ldi.z[i], ldi.z[i + 1]);

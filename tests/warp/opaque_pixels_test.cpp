@@ -44,7 +44,7 @@ TestPixel kept_opaque(const TestPixel &samples, const std::vector<Pixels> &pixel
                        });
     keep_opaque(reprojected, tolerance, ldi);
     TestPixel result;
-    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, 2)))
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, 2))))
         result.push_back({ldi.z[i], ldi.values[0][i] + 10 * ldi.values[1][i], ldi.values[3][i]});
     return result;
 }

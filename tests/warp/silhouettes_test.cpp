@@ -132,7 +132,7 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
     const Ldi ldi = separated(view);
     expect_flattens_to(view, ldi);
     for (int y = 3; y <= 5; ++y) {
-        const SampleRange samples = ldi.pixel(ldi.windows.index(8, y));
+        const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(8, y)));
         const std::uint64_t front = samples.front();
         ASSERT_EQ(samples.size(), 2u) << y;
         EXPECT_FLOAT_EQ(ldi.values[0][front + 1], lamp);
@@ -271,7 +271,7 @@ TEST(Silhouettes, AnEmptyPixelChangesWhatIsAroundItAlone) {
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
             if (x < 10 && y < 10) continue; // strands that tell a colour are up to 8 pixels away
-            const std::size_t pixel = full.windows.index(x, y);
+            const std::size_t pixel = full.windows.index(Imath::V2i(x, y));
             ASSERT_EQ(full.pixel(pixel).size(), other.pixel(pixel).size()) << x << ' ' << y;
             split += full.pixel(pixel).size() > 1;
             for (std::uint64_t i = 0; i < full.pixel(pixel).size(); ++i) {

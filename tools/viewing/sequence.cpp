@@ -233,7 +233,7 @@ ObjectMap object_map(const LoadedFrame &frame) {
     const Imath::Box2i box = reduced(windows.display, frame.across);
     ObjectMap map;
     const auto add = [&](const Ldi &ldi, const Imath::V2i &at) {
-        const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+        const SampleRange samples = ldi.pixel(ldi.windows.index(at));
         const std::string name = samples.empty() ? "" : object_of(ldi, mattes, samples.front(), frame.names);
         if (name.empty() || (objects.size() == most_objects && !objects.contains(name)))
             return std::size_t{0};
@@ -273,7 +273,7 @@ Json sample_facts(const LoadedFrame &frame, const ThinLens &lens, const Imath::V
     const Ldi ldi = frame.row(at.y);
     const auto rgb = find_rgb(ldi.channels);
     const std::size_t alpha = ldi.alpha();
-    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at))) {
         const float z = ldi.z[i], seen_at = float(ldi.coc_z(i));
         Json colour = Json::array();
         for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));

@@ -29,7 +29,7 @@ View antialiased(const TwoPlanes &planes, const Windows &windows, const Imath::V
     return make_view(windows, position, [&](int x, int y) {
         ViewPixel pixel{.z = hollow ? float(planes.front_z) : 0, .a = 0};
         for (int i = 0; i < n * n; ++i) {
-            const std::size_t at = fine_windows.index(n * x + i % n, n * y + i / n);
+            const std::size_t at = fine_windows.index(Imath::V2i(n * x + i % n, n * y + i / n));
             const bool front = points.z[at] == float(planes.front_z);
             if (i == n * n / 2 + n / 2 && !hollow) pixel.z = points.z[at];
             if (hollow && !front) continue;

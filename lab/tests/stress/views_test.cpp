@@ -34,7 +34,7 @@ View view_from(const Imath::V2d &position, const Windows &windows = frame, float
         const bool in_front = (front - Imath::V2d(30, 22)).length() < 12;
         const double value = in_front ? light(front.x, front.y, 1) : light(back.x, back.y, 0);
         const std::uint32_t random =
-            mix_bits(std::uint32_t(windows.index(x, y)), std::uint32_t(position.x * 1e4));
+            mix_bits(std::uint32_t(windows.index(Imath::V2i(x, y))), std::uint32_t(position.x * 1e4));
         const float grey = float(value * (1 + double(noise) * (unit_interval(random) - 0.5)));
         return ViewPixel{float(in_front ? front_z : back_z), grey, grey, grey};
     });

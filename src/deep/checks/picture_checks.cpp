@@ -224,7 +224,7 @@ double bend_of(const std::array<double, 5> &v) {
 
 } // namespace
 
-DepthBends bends_of_depth(const Grid &grid, std::span<const float> depths) {
+DepthBends bends_of_depth(const ArrayGrid &grid, std::span<const float> depths) {
     const auto across = std::size_t(std::max(grid.width(), grid.height()));
     const std::size_t step = std::max(shortest, across / steps_across);
     std::size_t all = 0, upward = 0, downward = 0;
@@ -243,7 +243,7 @@ DepthBends bends_of_depth(const Grid &grid, std::span<const float> depths) {
     return {all, double(upward) / double(all), double(downward) / double(all)};
 }
 
-bool looks_white_near(const Grid &grid, std::span<const float> depths) {
+bool looks_white_near(const ArrayGrid &grid, std::span<const float> depths) {
     if (!std::ranges::all_of(depths, [](float v) { return v >= 0 && v <= 1; })) return false;
     const DepthBends bends = bends_of_depth(grid, depths);
     return bends.slopes >= enough_slopes && bends.downward > mostly && bends.upward < hardly;
@@ -281,7 +281,7 @@ Slope slope_of(const Depth &depth) {
 
 DepthSlopes slopes_of_depth(const View &view) {
     std::size_t all = 0, planar = 0, inverse = 0;
-    visit_lines(view.image.windows.grid(), [&](const PictureLine &line) {
+    visit_lines(view.image.windows.grid().array(), [&](const PictureLine &line) {
         for (std::size_t i = 0; i + 2 * half_length < line.length; ++i) {
             const Slope slope = slope_of([&](std::size_t k) { return double(view.z[line[i + k]]); });
             if (!slope.found) continue;

@@ -95,10 +95,10 @@ struct DepthBends {
     double downward = 0;    // the share of them that bend the other way
 };
 
-DepthBends bends_of_depth(const Grid &grid, std::span<const float> depths);
+DepthBends bends_of_depth(const ArrayGrid &grid, std::span<const float> depths);
 
 // Whether no depth is above 1, and the slopes bend downward.
-bool looks_white_near(const Grid &grid, std::span<const float> depths);
+bool looks_white_near(const ArrayGrid &grid, std::span<const float> depths);
 
 // Whether a view was rendered through a lens, with depth of field, and not through a pinhole. Its edges are then
 // blurred already, and would be blurred again.
@@ -146,7 +146,7 @@ struct PictureLine {
 };
 
 template <typename Visit> // visit(PictureLine)
-void visit_lines(const Grid &grid, const Visit &visit) {
+void visit_lines(const ArrayGrid &grid, const Visit &visit) {
     constexpr std::size_t most = 512; // of each
     const auto width = std::size_t(grid.width()), height = std::size_t(grid.height());
     for (std::size_t y = 0; y < height; y += pieces_of(height, most)) visit(PictureLine{y * width, 1, width});

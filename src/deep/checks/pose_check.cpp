@@ -22,7 +22,7 @@ struct PosedPicture {
     explicit PosedPicture(const PackedView &picture)
         : view(picture), samples(picture.samples), rgb(find_rgb(samples.channels)) {}
 
-    std::size_t index(const Imath::V2i &p) const { return samples.windows.index(p.x, p.y); }
+    std::size_t index(const Imath::V2i &p) const { return samples.windows.index(p); }
     bool shows_something(const Imath::V2i &p) const { return samples.is_single(index(p)); } // a single sample
     double depth(const Imath::V2i &p) const { return samples.z(index(p)); }
     Imath::V3d colour(const Imath::V2i &p) const {

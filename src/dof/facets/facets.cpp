@@ -15,7 +15,7 @@ namespace {
 // Four pixels that meet in a corner: from (x, y) to (x + 1, y + 1).
 class Corner {
 public:
-    Corner(const Links &links, const Imath::V2i &at, float steep) : links_(links), at_(at), steep_(steep) {}
+    Corner(const Links &links, const Position &at, float steep) : links_(links), at_(at), steep_(steep) {}
 
     void find(std::vector<Facet> &found) const {
         links_.for_each_opaque(at_, [&](const LinkedSample &a) { add_from(a, found); });
@@ -45,7 +45,7 @@ private:
     }
 
     const Links &links_;
-    Imath::V2i at_;
+    Position at_;
     float steep_;
 };
 
@@ -57,7 +57,7 @@ struct DepthRange {
 std::vector<DepthRange> ranges_of_row(const Links &links, const Windows &windows, int y) {
     std::vector<DepthRange> ranges(std::size_t(windows.width()));
     for (int x = 0; x < windows.width(); ++x)
-        links.for_each_opaque({x, y}, [&](const LinkedSample &s) {
+        links.for_each_opaque(Position(x, y), [&](const LinkedSample &s) {
             DepthRange &range = ranges[std::size_t(x)];
             range = {std::min(range.least, s.depth), std::max(range.most, s.depth)};
         });
@@ -78,7 +78,7 @@ std::vector<std::vector<Facet>> find_in_row(const Links &links, const Windows &w
             const float least =
                 std::min({upper[i].least, upper[i + 1].least, lower[i].least, lower[i + 1].least});
             const float most = std::max({upper[i].most, upper[i + 1].most, lower[i].most, lower[i + 1].most});
-            if (most - least >= steep) Corner(links, {x, y}, steep).find(found[i / size]);
+            if (most - least >= steep) Corner(links, Position(x, y), steep).find(found[i / size]);
         }
     }
     std::erase_if(found, [](const auto &block) { return block.empty(); });
@@ -95,7 +95,7 @@ FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest) {
                    [&](std::size_t row) { return find_in_row(links, ldi.windows, int(row), steep); })};
 }
 
-LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
+LinkedSample Links::nearest(const Position &pixel, float depth) const {
     LinkedSample found;
     for_each_opaque(pixel, [&](const LinkedSample &s) {
         if (!found.found() || std::abs(s.depth - depth) < std::abs(found.depth - depth)) found = s;
@@ -105,7 +105,7 @@ LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
 
 // Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
 // 0. Both are 0 if the surface goes on level, because what has the expected depth is then a layer behind it.
-Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
+Links::Steps Links::steps_beyond(const LinkedSample &from, const Position &pixel, const Imath::V2i &step,
                                  float expected) const {
     Steps steps{0, 0};
     if (kernels::is_one_surface(nearest(pixel + step, from.depth).depth, from.depth, steep_px)) return steps;
@@ -120,7 +120,7 @@ Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pix
     return steps;
 }
 
-LinkedSample Links::linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const {
+LinkedSample Links::linked(const LinkedSample &a, const Position &pixel, const Imath::V2i &step) const {
     if (!a.found()) return a;
     const LinkedSample b = nearest(pixel + step, a.depth);
     if (!b.found()) return b;
@@ -138,7 +138,7 @@ namespace {
 class Joining {
 public:
     Joining(const Ldi &ldi, const Links &links, float apart)
-        : ldi_(ldi), corner_(ldi.windows.data.min), links_(links), apart_(apart), first_(ldi.samples()) {
+        : ldi_(ldi), grid_(ldi.windows.grid()), links_(links), apart_(apart), first_(ldi.samples()) {
         std::iota(first_.begin(), first_.end(), 0u);
     }
 
@@ -150,10 +150,10 @@ public:
             most = std::max(most, s.depth);
         });
         if (!(most - least > apart_)) return;
-        for_each(cell, [&](const Imath::V2i &at, const LinkedSample &s) {
+        for_each(cell, [&](const Imath::V2i &pixel, const LinkedSample &s) {
             for (const Imath::V2i &step : {Imath::V2i(1, 0), Imath::V2i(0, 1)})
-                if (cell.intersects(at + step + corner_))
-                    if (const LinkedSample next = links_.linked(s, at, step); next.found())
+                if (cell.intersects(pixel + step))
+                    if (const LinkedSample next = links_.linked(s, grid_.position(pixel), step); next.found())
                         unite(s.sample, next.sample);
         });
         for_each(cell,
@@ -163,13 +163,14 @@ public:
     std::vector<std::uint32_t> take() { return std::move(first_); }
 
 private:
-    // Calls visit(pixel, sample). The pixel is relative to the data window's corner.
+    // Calls visit(pixel, sample).
     template <typename Visit>
     void for_each(const Imath::Box2i &cell, const Visit &visit) const {
         for (int y = cell.min.y; y <= cell.max.y; ++y)
             for (int x = cell.min.x; x <= cell.max.x; ++x) {
-                const Imath::V2i at = Imath::V2i(x, y) - corner_;
-                links_.for_each_opaque(at, [&](const LinkedSample &s) { visit(at, s); });
+                const Imath::V2i pixel(x, y);
+                links_.for_each_opaque(grid_.position(pixel),
+                                       [&](const LinkedSample &s) { visit(pixel, s); });
             }
     }
     std::uint32_t first_of(std::uint32_t sample) const {
@@ -186,7 +187,7 @@ private:
     }
 
     const Ldi &ldi_;
-    Imath::V2i corner_;
+    Grid grid_;
     const Links &links_;
     float apart_;
     std::vector<std::uint32_t> first_;

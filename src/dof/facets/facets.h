@@ -58,13 +58,11 @@ public:
     Links(const Ldi &ldi, const ThinLens &lens)
         : ldi_(ldi), alpha_(ldi.alpha()), depth_at_1_(float(disparity(lens, 1))) {}
 
-    // Calls visit(sample) for the opaque samples of a pixel, which is relative to the data window's corner. A pixel
-    // outside the window has none.
+    // Calls visit(sample) for the opaque samples of a pixel. A pixel outside the window has none.
     template <typename Visit>
-    void for_each_opaque(const Imath::V2i &pixel, const Visit &visit) const {
-        const Imath::V2i at = pixel + ldi_.windows.data.min;
-        if (!ldi_.windows.data.intersects(at)) return;
-        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
+    void for_each_opaque(const Position &pixel, const Visit &visit) const {
+        if (!ldi_.windows.grid().contains(pixel)) return;
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel)))
             if (is_opaque(alpha_at(ldi_, alpha_, i)))
                 visit(LinkedSample{std::uint32_t(i), depth_at_1_ / ldi_.z[i]});
     }
@@ -77,12 +75,12 @@ public:
 
     // Returns the sample in the pixel one step on that `a`, a sample of `pixel`, is linked to; none if there is no
     // link.
-    LinkedSample linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const;
+    LinkedSample linked(const LinkedSample &a, const Position &pixel, const Imath::V2i &step) const;
 
 private:
-    LinkedSample nearest(const Imath::V2i &pixel, float depth) const;
+    LinkedSample nearest(const Position &pixel, float depth) const;
     using Steps = std::array<float, 2>;
-    Steps steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
+    Steps steps_beyond(const LinkedSample &from, const Position &pixel, const Imath::V2i &step,
                        float expected) const;
 
     const Ldi &ldi_;

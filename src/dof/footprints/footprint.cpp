@@ -20,13 +20,13 @@ const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 // Finds the samples of a box of pixels among `samples`.
 class Neighbourhood {
 public:
-    Neighbourhood(const Ldi &ldi, const SamplesInPicture &samples, const Imath::Box2i &box,
+    Neighbourhood(const Ldi &ldi, const SamplesInPicture &samples, const PositionBox &box,
                   std::span<const SampleRun> runs)
         : ldi_(ldi), samples_(samples), box_(box) {
-        for (int y = box.min.y; y <= box.max.y; ++y) {
-            const std::uint64_t first = ldi.begin[pixel(box.min.x, y)];
-            rows_.push_back(
-                {first, std::vector<std::uint32_t>(ldi.begin[pixel(box.max.x, y) + 1] - first, none)});
+        for (int y = box.min.row; y <= box.max.row; ++y) {
+            const std::uint64_t first = ldi.begin[ldi.windows.index(Position(box.min.column, y))],
+                                end = ldi.begin[ldi.windows.index(Position(box.max.column, y)) + 1];
+            rows_.push_back({first, std::vector<std::uint32_t>(end - first, none)});
         }
         for (const SampleRun &run : runs)
             for (std::uint32_t i = run.begin; i < run.end; ++i) put(i);
@@ -34,26 +34,26 @@ public:
 
     // Returns the index in `samples` of the LDI's sample i, which a pixel of row y has.
     std::uint32_t place(int y, std::uint64_t i) const {
-        const Row &row = rows_[std::size_t(y - box_.min.y)];
+        const Row &row = rows_[std::size_t(y - box_.min.row)];
         return row.place[i - row.first];
     }
 
     // Returns the sample in the pixel one step on that is linked to sample `of` of pixel `at`; both are indices in
     // `samples`.
-    std::uint32_t linked(const Imath::V2i &at, const Imath::V2i &step, std::uint32_t of) const {
+    std::uint32_t linked(const Position &at, const Imath::V2i &step, std::uint32_t of) const {
         const std::uint32_t source = samples_.source[of];
         if (!samples_.links || source >= ldi_.samples()) return none;
         const LinkedSample found = samples_.links->linked(samples_.links->opaque(source), at, step);
-        return found.found() && box_.intersects(at + step) ? place(at.y + step.y, found.sample) : none;
+        return found.found() && box_.contains(at + step) ? place(at.row + step.y, found.sample) : none;
     }
 
-    // Returns the sample of pixel (x, y) that is one surface with sample `of`; both are indices in `samples`.
-    std::uint32_t neighbour(int x, int y, std::uint32_t of) const {
-        if (!box_.intersects(Imath::V2i(x, y))) return none;
+    // Returns the sample of pixel `at` that is one surface with sample `of`; both are indices in `samples`.
+    std::uint32_t neighbour(const Position &at, std::uint32_t of) const {
+        if (!box_.contains(at)) return none;
         std::uint32_t found = none;
         float least = torn_px;
-        for (std::uint64_t i = ldi_.begin[pixel(x, y)]; i < ldi_.begin[pixel(x, y) + 1]; ++i) {
-            const std::uint32_t n = place(y, i);
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at))) {
+            const std::uint32_t n = place(at.row, i);
             const float apart = n == none ? least : std::abs(samples_.depth(n) - samples_.depth(of));
             if (apart >= least) continue;
             found = n;
@@ -67,9 +67,6 @@ private:
         std::uint64_t first;
         std::vector<std::uint32_t> place;
     };
-    std::size_t pixel(int x, int y) const {
-        return std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
-    }
     void put(std::uint32_t i) {
         const std::uint32_t source = samples_.source[i];
         for (Row &row : rows_)
@@ -79,7 +76,7 @@ private:
 
     const Ldi &ldi_;
     const SamplesInPicture &samples_;
-    Imath::Box2i box_;
+    PositionBox box_;
     std::vector<Row> rows_;
 };
 
@@ -88,15 +85,15 @@ Footprint unit_square(const SamplesInPicture &samples, std::uint32_t at) {
     return {{x - 0.5f, x + 0.5f, y - 0.5f, y + 0.5f}, {c, c, c, c}};
 }
 
-Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, int x, int y,
+Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, const Position &at,
                     std::uint32_t own) {
     Footprint f = unit_square(samples, own);
     for (std::size_t k = 0; k < 4; ++k) {
-        std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
+        std::uint32_t n = near.neighbour(at + beside[k], own);
         const float apart = n == none ? torn_px : std::abs(samples.depth(own) - samples.depth(n));
         float joined = std::min((torn_px - apart) / (torn_px - whole), 1.0f);
         if (joined < 1)
-            if (const std::uint32_t steep = near.linked({x, y}, beside[k], own); steep != none) {
+            if (const std::uint32_t steep = near.linked(at, beside[k], own); steep != none) {
                 n = steep;
                 joined = 1;
             }
@@ -116,42 +113,47 @@ Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, 
 } // namespace
 
 std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &samples,
-                                     const Imath::Box2i &pixels, const SampleRun &run,
+                                     const PositionBox &pixels, const SampleRun &run,
                                      std::span<const SampleRun> around) {
-    const Imath::Box2i all({0, 0}, {ldi.windows.width() - 1, ldi.windows.height() - 1});
-    const Imath::V2i least = pixels.min - Imath::V2i(1), most = pixels.max + Imath::V2i(1);
-    const Neighbourhood near(ldi, samples,
-                             {{std::max(least.x, all.min.x), std::max(least.y, all.min.y)},
-                              {std::min(most.x, all.max.x), std::min(most.y, all.max.y)}},
-                             around);
+    const Position last = ldi.windows.grid().array().box().max;
+    const auto there = [&](int column, int row) {
+        return Position(std::clamp(column, 0, last.column), std::clamp(row, 0, last.row));
+    };
+    const Position end = there(pixels.max.column, pixels.max.row);
+    const Neighbourhood near(
+        ldi, samples,
+        {there(pixels.min.column - 1, pixels.min.row - 1), there(pixels.max.column + 1, pixels.max.row + 1)},
+        around);
     std::vector<Footprint> footprints;
     for (std::uint32_t i = run.begin; i < run.end; ++i) footprints.push_back(unit_square(samples, i));
-    for (int y = pixels.min.y; y <= std::min(pixels.max.y, all.max.y); ++y)
-        for (int x = pixels.min.x; x <= std::min(pixels.max.x, all.max.x); ++x) {
-            const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
-            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
+    for (int y = pixels.min.row; y <= end.row; ++y)
+        for (int x = pixels.min.column; x <= end.column; ++x) {
+            const Position at(x, y);
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at))) {
                 const std::uint32_t own = near.place(y, i);
-                if (own != none) footprints[own - run.begin] = footprint(samples, near, x, y, own);
+                if (own != none) footprints[own - run.begin] = footprint(samples, near, at, own);
             }
         }
     return footprints;
 }
 
-float coc_to_edges(const Links *links, const Imath::Box2i &pixels) {
+float coc_to_edges(const Links *links, const PositionBox &pixels) {
     float largest = torn_px / 2;
     if (!links) return largest;
     float least = INFINITY, most = -INFINITY;
     const auto for_all = [&](int around, const auto &visit) {
-        for (int y = pixels.min.y - around; y <= pixels.max.y + around; ++y)
-            for (int x = pixels.min.x - around; x <= pixels.max.x + around; ++x)
-                links->for_each_opaque({x, y}, [&](const LinkedSample &s) { visit(Imath::V2i(x, y), s); });
+        for (int y = pixels.min.row - around; y <= pixels.max.row + around; ++y)
+            for (int x = pixels.min.column - around; x <= pixels.max.column + around; ++x) {
+                const Position at(x, y);
+                links->for_each_opaque(at, [&](const LinkedSample &s) { visit(at, s); });
+            }
     };
-    for_all(1, [&](const Imath::V2i &, const LinkedSample &s) {
+    for_all(1, [&](const Position &, const LinkedSample &s) {
         least = std::min(least, s.depth);
         most = std::max(most, s.depth);
     });
     if (!(most - least > torn_px)) return largest;
-    for_all(0, [&](const Imath::V2i &at, const LinkedSample &s) {
+    for_all(0, [&](const Position &at, const LinkedSample &s) {
         for (const Imath::V2i &step : beside) {
             const LinkedSample next = links->linked(s, at, step);
             if (next.found()) largest = std::max(largest, std::abs(next.depth - s.depth) / 2);

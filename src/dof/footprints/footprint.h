@@ -41,14 +41,13 @@ struct SampleRun {
     std::uint32_t begin, end;
 };
 
-// Returns the footprints of the samples of `run`, which are all samples of `pixels` (columns and rows of the data
-// window). `around`: the runs with the samples of these pixels and of the pixels beside them.
+// Returns the footprints of the samples of `run`, which are all samples of `pixels`. `around`: the runs with the samples of these pixels and of the pixels beside them.
 std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &samples,
-                                     const Imath::Box2i &pixels, const SampleRun &run,
+                                     const PositionBox &pixels, const SampleRun &run,
                                      std::span<const SampleRun> around);
 
 // Returns by how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a box of pixels.
-float coc_to_edges(const Links *links, const Imath::Box2i &pixels);
+float coc_to_edges(const Links *links, const PositionBox &pixels);
 
 // Joins the footprints of opaque samples of one surface that lie side by side into one rectangle. For a lamp far behind
 // them the rectangle makes no difference, and it is tested once instead of once for each sample.

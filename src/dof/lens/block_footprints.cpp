@@ -61,7 +61,7 @@ BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, 
     for (int row = 0; row < samples.rows; row += in_area)
         for (int column = 0; column < samples.columns; column += in_area) {
             Area area;
-            const Imath::V2i first(column, row);
+            const Position first(column, row);
             for_blocks({first, first + Imath::V2i(in_area - 1)}, [&](std::uint32_t b) {
                 if (samples.blocks[b].begin == samples.blocks[b].end) return;
                 area.blocks.push_back(b);
@@ -74,9 +74,7 @@ BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, 
 CasterBounds BlockFootprints::bounds_of(std::uint32_t block) const {
     const SampleBlock &own = samples_.blocks[block];
     if (own.begin == own.end) return CasterBounds::none();
-    const Imath::V2i first = at(block) * BlockedSamples::size;
-    const float edge =
-        coc_to_edges(links_ ? &*links_ : nullptr, {first, first + Imath::V2i(BlockedSamples::size - 1)});
+    const float edge = coc_to_edges(links_ ? &*links_ : nullptr, pixels_of(block));
     return {{{own.x_min, own.y_min}, {own.x_max, own.y_max}},
             {own.coc_min - edge, own.coc_max + edge},
             {own.focus_min - edge, own.focus_max + edge},
@@ -116,15 +114,12 @@ SamplesInPicture BlockFootprints::in_picture() const {
 }
 
 std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
-    constexpr int size = BlockedSamples::size;
     std::vector<SampleRun> around;
     for_blocks({at(block) - Imath::V2i(1), at(block) + Imath::V2i(1)}, [&](std::uint32_t b) {
         around.push_back({samples_.blocks[b].begin, samples_.blocks[b].end});
     });
     const SampleBlock &own = samples_.blocks[block];
-    const Imath::V2i first = at(block) * size;
-    return footprints_of(ldi_, in_picture(), {first, first + Imath::V2i(size - 1)}, {own.begin, own.end},
-                         around);
+    return footprints_of(ldi_, in_picture(), pixels_of(block), {own.begin, own.end}, around);
 }
 
 } // namespace sparselens

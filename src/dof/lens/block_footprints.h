@@ -85,14 +85,21 @@ private:
     };
     // Calls visit(block) for the blocks of a box of columns and rows.
     template <typename Visit>
-    void for_blocks(const Imath::Box2i &box, const Visit &visit) const {
-        for (int row = std::max(box.min.y, 0); row <= std::min(box.max.y, samples_.rows - 1); ++row)
-            for (int column = std::max(box.min.x, 0); column <= std::min(box.max.x, samples_.columns - 1);
-                 ++column)
+    void for_blocks(const PositionBox &box, const Visit &visit) const {
+        const int last_row = std::min(box.max.row, samples_.rows - 1),
+                  last_column = std::min(box.max.column, samples_.columns - 1);
+        for (int row = std::max(box.min.row, 0); row <= last_row; ++row)
+            for (int column = std::max(box.min.column, 0); column <= last_column; ++column)
                 visit(std::uint32_t(row * samples_.columns + column));
     }
-    Imath::V2i at(std::uint32_t block) const {
-        return {int(block) % samples_.columns, int(block) / samples_.columns};
+    // Where a block lies among the blocks, and its pixels in the data window.
+    Position at(std::uint32_t block) const {
+        return ArrayGrid(samples_.columns, samples_.rows).position(block);
+    }
+    PositionBox pixels_of(std::uint32_t block) const {
+        constexpr int size = BlockedSamples::size;
+        const Position first(at(block).column * size, at(block).row * size);
+        return {first, first + Imath::V2i(size - 1)};
     }
     CasterBounds bounds_of(std::uint32_t block) const;
     SamplesInPicture in_picture() const;

@@ -189,10 +189,6 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
 
 namespace {
 
-std::size_t pixel_at(const Ldi &ldi, int x, int y) {
-    return ldi.windows.index(ldi.windows.data.min.x + x, ldi.windows.data.min.y + y);
-}
-
 // Places the fillers for which is_placed(number) is true; `source` is the number.
 template <typename IsPlaced>
 BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
@@ -200,12 +196,12 @@ BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Fill
     std::vector<std::uint32_t> of_pixel(ldi.windows.pixels(), 0); // the number, plus 1
     for (std::uint32_t f = 0; f < fillers.size(); ++f)
         if (is_placed(f)) of_pixel[fillers[f].pixel] = f + 1;
-    return make_blocks(ldi.windows, [&](int x, int y, std::vector<PlacedSample> &found) {
-        const std::uint32_t number = of_pixel[pixel_at(ldi, x, y)];
+    return make_blocks(ldi.windows, [&](const Position &at, std::vector<PlacedSample> &found) {
+        const std::uint32_t number = of_pixel[ldi.windows.index(at)];
         if (number == 0) return;
         const Filler &filler = fillers[number - 1];
         const double z = double(filler.z);
-        found.push_back({float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, z)),
+        found.push_back({float(at.column) + 0.5f, float(at.row) + 0.5f, float(circle_of_confusion(lens, z)),
                          float(disparity(lens, z)), 1,
                          filler.is_nothing() ? BlockedSamples::background : number - 1});
     });
@@ -217,7 +213,7 @@ void for_each_around(const Ldi &ldi, std::size_t pixel, const Visit &visit) {
     const Imath::V2i at = ldi.windows.pixel(pixel);
     for (int y = at.y - 1; y <= at.y + 1; ++y)
         for (int x = at.x - 1; x <= at.x + 1; ++x)
-            if (ldi.windows.data.intersects(Imath::V2i(x, y))) visit(ldi.windows.index(x, y));
+            if (ldi.windows.data.intersects(Imath::V2i(x, y))) visit(ldi.windows.index(Imath::V2i(x, y)));
 }
 
 // Whether a sample of a pixel is one surface with samples of most pixels around it.
@@ -299,8 +295,8 @@ BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedS
         });
         return nearest;
     };
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
-        const std::size_t pixel = pixel_at(ldi, x, y);
+    const auto place = [&](const Position &at, std::vector<PlacedSample> &placed) {
+        const std::size_t pixel = ldi.windows.index(at);
         for (const std::uint64_t i : ldi.pixel(pixel)) {
             if (!(ldi.solid[i] > 0)) continue;
             const MergedSample s = sample_at(ldi, i);
@@ -308,8 +304,8 @@ BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedS
                          hidden = 1 / double(s.z) - 2 * double(s.solid);
             if (!(hidden > 0)) continue;
             if (const auto shown = shown_by(pixel, i))
-                placed.push_back({float(x) + 0.5f + s.dx,
-                                  float(y) + 0.5f + s.dy,
+                placed.push_back({float(at.column) + 0.5f + s.dx,
+                                  float(at.row) + 0.5f + s.dy,
                                   float(circle_of_confusion(lens, 1 / back)),
                                   float(disparity(lens, 1 / hidden)),
                                   1,

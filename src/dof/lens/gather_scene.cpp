@@ -29,10 +29,9 @@ bool is_sharp(const BlockedSamples &samples, const Optics &optics) {
            });
 }
 
-// The pixels that were seen, relative to the data window's corner.
-std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imath::V2i &corner) {
+std::optional<PositionBox> seen_of(const LensGatherOptions &options, const Grid &grid) {
     if (!options.seen) return {};
-    return Imath::Box2i(options.seen->min - corner, options.seen->max - corner);
+    return PositionBox{grid.position(options.seen->min), grid.position(options.seen->max)};
 }
 
 // Makes the colours half magenta, by their coverage.
@@ -69,8 +68,8 @@ GatherScene placed_for(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i 
 }
 
 void take_highlights(GatherScene &scene, const LensGatherOptions &options) {
-    scene.highlights =
-        take_highlights(*scene.ldi, scene.samples, scene.colours, seen_of(options, scene.held_out.corner));
+    scene.highlights = take_highlights(*scene.ldi, scene.samples, scene.colours,
+                                       seen_of(options, scene.ldi->windows.grid()));
 }
 
 // Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them, and tells
@@ -121,7 +120,7 @@ std::vector<char> unseen_cells(const GatherScene &scene, const Windows &small, i
     std::vector<int> known(small.pixels(), 0);
     for (std::size_t pixel = 0; pixel < large.pixels(); ++pixel) {
         const Imath::V2i at = large.pixel(pixel), cell = reduced({at, at}, across).min;
-        known[small.index(cell.x, cell.y)] += scene.known.has(large, pixel);
+        known[small.index(cell)] += scene.known.has(large, pixel);
     }
     std::vector<char> unseen(small.pixels());
     std::ranges::transform(known, unseen.begin(), [&](int pixels) { return pixels < across * across; });

@@ -64,7 +64,7 @@ public:
     Darkening(const CatEye &cat_eye, const Ldi &ldi, const Windows &windows);
 
     float left(std::size_t channel, int x, int y) const { // EXR coordinates
-        return left_.empty() || !is_colour(sets_[channel]) ? 1 : left_[windows_.index(x, y)];
+        return left_.empty() || !is_colour(sets_[channel]) ? 1 : left_[windows_.index(Imath::V2i(x, y))];
     }
     void darken(Image &image) const; // which must have these windows
 

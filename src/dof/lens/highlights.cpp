@@ -28,7 +28,7 @@ struct Found {
 class HighlightFinder {
 public:
     HighlightFinder(const Ldi &ldi, const BlockedSamples &samples, std::span<const std::size_t> channels,
-                    const SampleColours &colours, const std::optional<Imath::Box2i> &seen);
+                    const SampleColours &colours, const std::optional<PositionBox> &seen);
     std::vector<Found> find() const;
 
 private:
@@ -39,27 +39,27 @@ private:
     }
     // visit(sample) for the samples of the cells in a box, without volumes.
     template <typename Visit>
-    void for_each_sample(const Imath::Box2i &cells, const Visit &visit) const;
+    void for_each_sample(const PositionBox &cells, const Visit &visit) const;
     // A transparent pixel beyond the frame is as well known as the frame's pixel beside it.
     bool is_seen(std::uint32_t sample) const {
         if (!seen_ || samples_.source[sample] == BlockedSamples::background) return true;
-        return seen_->intersects(
-            Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
+        return seen_->contains(
+            Position(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
     }
     enum class Of { seen, seen_and_covered, all };
     // What a window holds besides samples that were seen. If it holds nothing else, its levels are the same.
     struct Besides {
         bool background = false, unseen = false;
     };
-    float level_of(const Imath::Box2i &cells, Of of, Besides &besides) const;
-    std::vector<Found> find_in(const Imath::V2i &at) const;
+    float level_of(const PositionBox &cells, Of of, Besides &besides) const;
+    std::vector<Found> find_in(const Position &at) const;
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;
     std::span<const std::size_t> channels_;
     const SampleColours &colours_;
-    const std::optional<Imath::Box2i> &seen_;
-    Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
+    const std::optional<PositionBox> &seen_;
+    ArrayGrid cells_, windows_; // a window's lower right cell is the one of its own column and row
     std::vector<float> levels_, covered_levels_; // with backgrounds, and without
     std::vector<float> made_up_levels_;          // with samples beyond the frame
     BrightShare as_bright_;
@@ -67,15 +67,15 @@ private:
 
 HighlightFinder::HighlightFinder(const Ldi &ldi, const BlockedSamples &samples,
                                  std::span<const std::size_t> channels, const SampleColours &colours,
-                                 const std::optional<Imath::Box2i> &seen)
+                                 const std::optional<PositionBox> &seen)
     : ldi_(ldi), samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
       windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()),
       covered_levels_(windows_.size()), made_up_levels_(windows_.size()),
       as_bright_(ldi, samples, [this](std::uint32_t i) { return brightness_of(i); }) {
     parallel_for(windows_.size(), [&](std::size_t i) {
-        const Imath::V2i last = windows_.pixel(i);
-        const Imath::Box2i window{last - Imath::V2i(1), last};
+        const Position last = windows_.position(i);
+        const PositionBox window{last - Imath::V2i(1), last};
         Besides besides;
         const float level = level_of(window, Of::seen, besides);
         levels_[i] = level;
@@ -85,10 +85,11 @@ HighlightFinder::HighlightFinder(const Ldi &ldi, const BlockedSamples &samples,
 }
 
 template <typename Visit>
-void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &visit) const {
-    const Imath::V2i first = cells.min * cell, end = (cells.max + Imath::V2i(1)) * cell;
-    for (int row = std::max(first.y, 0); row < std::min(end.y, samples_.rows); ++row)
-        for (int column = std::max(first.x, 0); column < std::min(end.x, samples_.columns); ++column) {
+void HighlightFinder::for_each_sample(const PositionBox &cells, const Visit &visit) const {
+    const int last_row = std::min((cells.max.row + 1) * cell, samples_.rows),
+              last_column = std::min((cells.max.column + 1) * cell, samples_.columns);
+    for (int row = std::max(cells.min.row * cell, 0); row < last_row; ++row)
+        for (int column = std::max(cells.min.column * cell, 0); column < last_column; ++column) {
             const SampleBlock &block = samples_.blocks[std::size_t(row * samples_.columns + column)];
             for (std::uint32_t i = block.begin; i < block.end; ++i)
                 if (counts_as(ldi_, samples_, i) > 0) visit(i);
@@ -96,7 +97,7 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 }
 
 // Returns the level that all but the brightest samples of a window stay below.
-float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besides) const {
+float HighlightFinder::level_of(const PositionBox &cells, Of of, Besides &besides) const {
     std::vector<CoveredLight> levels, all;
     for_each_sample(cells, [&](std::uint32_t i) {
         const bool background = samples_.source[i] == BlockedSamples::background, seen = is_seen(i);
@@ -115,9 +116,9 @@ float seen_of_disc(float ratio, float coc) {
     return ratio * ratio < 2 * unseen ? std::max(ratio * ratio / unseen - 1, 0.0f) : 1;
 }
 
-std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
+std::vector<Found> HighlightFinder::find_in(const Position &at) const {
     const auto level_in = [&](const std::vector<float> &levels) {
-        const auto level_at = [&](int x, int y) { return levels[windows_.index(at.x + x, at.y + y)]; };
+        const auto level_at = [&](int x, int y) { return levels[windows_.index(at + Imath::V2i(x, y))]; };
         return std::min({level_at(0, 0), level_at(1, 0), level_at(0, 1), level_at(1, 1)});
     };
     const float any_level = level_in(levels_), covered_level = level_in(covered_levels_),
@@ -143,7 +144,8 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
 }
 
 std::vector<Found> HighlightFinder::find() const {
-    std::vector<Found> all = joined(cells_.size(), [&](std::size_t i) { return find_in(cells_.pixel(i)); });
+    std::vector<Found> all =
+        joined(cells_.size(), [&](std::size_t i) { return find_in(cells_.position(i)); });
     std::ranges::sort(all, {}, &Found::sample);
     return all;
 }
@@ -167,7 +169,7 @@ int pieces_along(const LampMotion &motion, float coc) {
 } // namespace
 
 Highlights take_highlights(const Ldi &ldi, const BlockedSamples &samples, SampleColours &colours,
-                           const std::optional<Imath::Box2i> &seen) {
+                           const std::optional<PositionBox> &seen) {
     const LightChannels light = light_channels(ldi);
     const std::vector<Found> all = HighlightFinder(ldi, samples, light.brightness, colours, seen).find();
     Highlights highlights;
@@ -303,7 +305,7 @@ BrightShare::BrightShare(const Ldi &ldi, const BlockedSamples &samples,
     : samples_(samples), corners_(pieces_of(samples.columns, cell) + 1, pieces_of(samples.rows, cell) + 1),
       below_(octaves * corners_.size()) {
     const auto at = [&](int octave, int x, int y) -> double & {
-        return below_[std::size_t(octave) * corners_.size() + corners_.index(x, y)];
+        return below_[std::size_t(octave) * corners_.size() + corners_.index(Position(x, y))];
     };
     parallel_for(std::size_t(corners_.height() - 1), [&](std::size_t row) {
         const std::size_t columns = std::size_t(samples.columns), first = row * cell * columns,
@@ -331,7 +333,8 @@ double BrightShare::count(int octave, const std::array<double, 4> &box) const {
                   row = std::min(int(y), corners_.height() - 2);
         const double right = x - column, down = y - row;
         const auto at = [&](int i, int j) {
-            return below_[std::size_t(octave) * corners_.size() + corners_.index(column + i, row + j)];
+            return below_[std::size_t(octave) * corners_.size() +
+                          corners_.index(Position(column + i, row + j))];
         };
         return (1 - down) * ((1 - right) * at(0, 0) + right * at(1, 0)) +
                down * ((1 - right) * at(0, 1) + right * at(1, 1));

@@ -102,7 +102,7 @@ struct Highlights {
 // less and less, so that nothing pops where a lamp is hardly one. A sample whose disc would be too wide and too faint
 // to be seen (lamp_least_variance) is no highlight.
 Highlights take_highlights(const Ldi &ldi, const BlockedSamples &samples, SampleColours &colours,
-                           const std::optional<Imath::Box2i> &seen = {});
+                           const std::optional<PositionBox> &seen = {});
 
 // The highlights as parts of lamps. `corner`: of the data window, EXR coordinates.
 std::vector<LampPart> lamp_parts(const Highlights &highlights, const BlockedSamples &samples,
@@ -144,7 +144,7 @@ private:
     double count(int octave, const std::array<double, 4> &box) const;
 
     const BlockedSamples &samples_;
-    Grid corners_; // of cells
+    ArrayGrid corners_; // of cells
     // [octave][corner]: what the samples to the left of the corner and above it count that are of this octave or
     // brighter
     std::vector<double> below_;

@@ -13,13 +13,14 @@ namespace sparselens {
 
 namespace {
 
-PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
+PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, const Position &at, float alpha,
+                       std::uint64_t i) {
     const MergedSample place = sample_at(ldi, i);
     std::optional<float> surface_coc;
     if (is_opaque(alpha) && !ldi.image_z.empty())
         surface_coc = float(circle_of_confusion(lens, double(place.z)));
-    return {float(x) + 0.5f + place.dx,
-            float(y) + 0.5f + place.dy,
+    return {float(at.column) + 0.5f + place.dx,
+            float(at.row) + 0.5f + place.dy,
             float(circle_of_confusion(lens, ldi.coc_z(i))),
             float(disparity(lens, double(place.z))),
             alpha,
@@ -28,30 +29,28 @@ PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float
 }
 
 // The samples of one pixel, its background included.
-void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known, int x, int y,
+void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known, const Position &at,
                   std::size_t alpha_channel, std::vector<PlacedSample> &found) {
-    const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
-    const std::size_t pixel = ldi.windows.index(at.x, at.y);
+    const std::size_t pixel = ldi.windows.index(at);
     const SampleRange samples = ldi.pixel(pixel);
     const double left = for_shares(ldi, alpha_channel, samples, [&](std::uint64_t i, double) {
-        found.push_back(sample_at(ldi, lens, x, y, alpha_at(ldi, alpha_channel, i), i));
+        found.push_back(sample_at(ldi, lens, at, alpha_at(ldi, alpha_channel, i), i));
     });
     if (!lets_through(left) || !known.has(ldi.windows, pixel)) return;
     const auto add_background = [&](float at_x, float at_y, float coc) {
         found.push_back({at_x, at_y, coc, 0, 1, BlockedSamples::background});
     };
     constexpr double sky = std::numeric_limits<double>::infinity();
-    add_background(float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, sky)));
+    add_background(float(at.column) + 0.5f, float(at.row) + 0.5f, float(circle_of_confusion(lens, sky)));
     if (samples.empty()) return;
     const PlacedSample last = found[found.size() - 2];
     add_background(last.x, last.y, last.coc);
 }
 
 // How many samples find_samples() finds.
-SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int y,
+SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, const Position &at,
                            std::size_t alpha_channel) {
-    const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
-    const std::size_t pixel = ldi.windows.index(at.x, at.y);
+    const std::size_t pixel = ldi.windows.index(at);
     const SampleRange samples = ldi.pixel(pixel);
     SampleCounts counts{0, std::uint32_t(samples.size())};
     const double left = for_shares(ldi, alpha_channel, samples, [&](std::uint64_t i, double) {
@@ -62,14 +61,14 @@ SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int 
     return {counts.opaque + backgrounds, counts.all + backgrounds};
 }
 
-// Calls visit(x, y) for the pixels of a block.
+// Calls visit(position) for the pixels of a block.
 template <typename Visit>
 void for_each_pixel(const BlockedSamples &samples, const Windows &windows, std::size_t block,
                     const Visit &visit) {
     constexpr int size = BlockedSamples::size;
     const int left = int(block) % samples.columns * size, top = int(block) / samples.columns * size;
     for (int y = top; y < std::min(top + size, windows.height()); ++y)
-        for (int x = left; x < std::min(left + size, windows.width()); ++x) visit(x, y);
+        for (int x = left; x < std::min(left + size, windows.width()); ++x) visit(Position(x, y));
 }
 
 void resize(BlockedSamples &samples, std::size_t count, Also also) {
@@ -139,8 +138,8 @@ BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, co
     samples.blocks.resize(std::size_t(samples.columns) * std::size_t(samples.rows));
     parallel_for(samples.blocks.size(), [&](std::size_t b) {
         SampleBlock &block = samples.blocks[b];
-        for_each_pixel(samples, windows, b, [&](int x, int y) {
-            const SampleCounts counts = count(x, y);
+        for_each_pixel(samples, windows, b, [&](const Position &at) {
+            const SampleCounts counts = count(at);
             block.opaque_end += counts.opaque;
             block.end += counts.all;
         });
@@ -157,9 +156,9 @@ BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, co
         SampleBlock &block = samples.blocks[b];
         std::size_t opaque = block.begin, partial = block.opaque_end;
         std::vector<PlacedSample> placed;
-        for_each_pixel(samples, windows, b, [&](int x, int y) {
+        for_each_pixel(samples, windows, b, [&](const Position &at) {
             placed.clear();
-            place(x, y, placed);
+            place(at, placed);
             for (const PlacedSample &f : placed) store(samples, is_opaque(f.alpha) ? opaque++ : partial++, f);
         });
         bound(block, samples);
@@ -168,9 +167,9 @@ BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, co
 }
 
 BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, Also also) {
-    const auto count = [&](int x, int y) {
+    const auto count = [&](const Position &at) {
         std::vector<PlacedSample> placed;
-        place(x, y, placed);
+        place(at, placed);
         return SampleCounts{std::uint32_t(placed.size()), std::uint32_t(placed.size())};
     };
     return make_blocks(windows, count, place, also);
@@ -180,9 +179,9 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixe
     if (ldi.samples() + 2 * ldi.windows.pixels() >= BlockedSamples::background) // see count_samples()
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
     const std::size_t alpha = ldi.alpha();
-    const auto count = [&](int x, int y) { return count_samples(ldi, known, x, y, alpha); };
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
-        find_samples(ldi, lens, known, x, y, alpha, placed);
+    const auto count = [&](const Position &at) { return count_samples(ldi, known, at, alpha); };
+    const auto place = [&](const Position &at, std::vector<PlacedSample> &placed) {
+        find_samples(ldi, lens, known, at, alpha, placed);
     };
     return make_blocks(ldi.windows, count, place, ldi.image_z.empty() ? Also::nothing : Also::surfaces);
 }

@@ -130,8 +130,8 @@ struct SampleCounts {
 
 // Makes blocks of the samples that `place(x, y, placed)` appends for each column and row of a window of this size;
 // `count` says how many that will be, so that they need not be kept twice.
-using CountSamples = std::function<SampleCounts(int x, int y)>;
-using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
+using CountSamples = std::function<SampleCounts(const Position &at)>;
+using PlaceSamples = std::function<void(const Position &at, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
                            Also also);
 // The same for opaque samples. Calls place() twice for each pixel: to count its samples, and to store them.

@@ -40,7 +40,7 @@ public:
 
     void gather(const Imath::Box2i &tile, std::span<const VisitedBlock> blocks); // front to back
     double blend(int x, int y, std::span<double> colours) const {
-        return layers_.blend(pixels_.index(x, y), colours);
+        return layers_.blend(pixels_.index(Imath::V2i(x, y)), colours);
     }
 
 private:
@@ -93,7 +93,7 @@ void TileGather::add_splat(std::size_t splat) {
         touched_.extendBy(Imath::Box2i({begin, row}, {end - 1, row}));
         const double *weight = weights.data() + (begin - tile_.min.x);
         for (std::size_t k = 0; k < value.size(); ++k) {
-            double *sum = &sums_[k * tile_pixels + pixels_.index(begin, row)];
+            double *sum = &sums_[k * tile_pixels + pixels_.index(Imath::V2i(begin, row))];
             for (int i = 0; i < end - begin; ++i) sum[i] += weight[i] * value[k];
         }
     }
@@ -103,13 +103,13 @@ void TileGather::finish_bin(int bin) {
     const std::size_t size = grid_.size();
     for (int y = touched_.min.y; y <= touched_.max.y; ++y)
         for (int x = touched_.min.x; x <= touched_.max.x; ++x) {
-            double *sums = &sums_[pixels_.index(x, y)];
+            double *sums = &sums_[pixels_.index(Imath::V2i(x, y))];
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] += uniform_[k];
             const double known = sums[tile_pixels];
             if (known > kernels::least_known) {
                 const double radius = sums[(size - 1) * tile_pixels] / known;
                 const double scale = 1 / window_share(data_, pixel_aspect_, x, y, radius);
-                layers_.add(pixels_.index(x, y), bin, sums, tile_pixels, scale);
+                layers_.add(pixels_.index(Imath::V2i(x, y)), bin, sums, tile_pixels, scale);
             }
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] = 0;
         }
@@ -135,10 +135,10 @@ struct Gathering {
     const Imath::Box2i &data;
     double pixel_aspect;
     Image &image;
-    Tiles tiles{data, tile_size};
+    Tiles<> tiles{data, tile_size};
 
     std::vector<std::uint32_t> blocks_reaching_row(std::size_t row) const {
-        const Imath::Box2i leftmost = tiles.box(0, int(row));
+        const Imath::Box2i leftmost = tiles.box(Position(0, int(row)));
         std::vector<std::uint32_t> found;
         for (std::size_t i = 0; i < grid.blocks.size(); ++i) {
             const Imath::Box2d &reach = grid.blocks[i].reach;
@@ -184,7 +184,7 @@ void gather_on(TileDevice &device, const Gathering &from, std::size_t layers, st
         device.gather(scene, tasks, [&](std::size_t n, const SplatPicture &picture) {
             const Grid pixels({tasks[n].tile.min, tasks[n].tile.min + Imath::V2i(tile_size - 1)});
             write_tile(from.image, from.source, tasks[n].tile, [&](int x, int y, std::span<double> colours) {
-                const std::size_t pixel = pixels.index(x, y);
+                const std::size_t pixel = pixels.index(Imath::V2i(x, y));
                 for (std::size_t k = 0; k < colours.size(); ++k) colours[k] = double(picture.value(pixel, k));
                 return double(picture.alphas[pixel]);
             });
@@ -219,7 +219,7 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
         parallel_for(columns, [&](std::size_t column) {
             progress.advance();
             if (done_here[column]) return;
-            const Imath::Box2i tile = from.tiles.box(int(column), int(row));
+            const Imath::Box2i tile = from.tiles.box(Position(int(column), int(row)));
             TileGather &worker = workers.local();
             worker.gather(tile, from.visited(tile, blocks));
             write_tile(image, source, tile,

@@ -59,7 +59,7 @@ template <typename Visit>
 void for_each_splat(const SplatSource &source, const Imath::Box2i &square, const Visit &visit) {
     for (int y = square.min.y; y <= square.max.y; ++y)
         for (int x = square.min.x; x <= square.max.x; ++x)
-            source.for_each(source.ldi().windows.index(x, y), visit);
+            source.for_each(source.ldi().windows.index(Imath::V2i(x, y)), visit);
 }
 
 // The splats of a square front to back; equal bins stay in pixel order.

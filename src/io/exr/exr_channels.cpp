@@ -362,7 +362,8 @@ void put_depth_of_file(FlatFile &picture, const std::string &path, const Picture
     const std::span<float> plane = new_depth(picture.image);
     const Imath::Box2i both = common_box(from.data, to.data);
     for (int y = both.min.y; y <= both.max.y; ++y)
-        for (int x = both.min.x; x <= both.max.x; ++x) plane[to.index(x, y)] = values[from.index(x, y)];
+        for (int x = both.min.x; x <= both.max.x; ++x)
+            plane[to.index(Imath::V2i(x, y))] = values[from.index(Imath::V2i(x, y))];
     picture.notes.push_back(fmt::format("depth: {} of {}", depth.name, display_name(name)));
     if (depth.warning) picture.warnings.push_back(display_name(name) + ": " + *depth.warning);
 }

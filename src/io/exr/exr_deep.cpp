@@ -291,7 +291,7 @@ std::size_t write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi,
                        const std::vector<StoredChannel> &stored, int first_row, int rows) {
     const Windows &w = ldi.windows;
     const std::size_t width = std::size_t(w.width()), pixels = std::size_t(rows) * width;
-    const std::size_t first = w.index(w.data.min.x, first_row);
+    const std::size_t first = w.index(Imath::V2i(w.data.min.x, first_row));
     const std::uint64_t from = ldi.begin[first], count = ldi.begin[first + pixels] - from;
     const Imath::Box2i box({w.data.min.x, first_row}, {w.data.max.x, first_row + rows - 1});
     std::vector<unsigned> counts(pixels);

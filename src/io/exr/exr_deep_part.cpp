@@ -98,7 +98,7 @@ public:
                  std::vector<unsigned> &counts) {
         const Windows &w = ldi.windows;
         const std::size_t width = std::size_t(w.width());
-        const std::size_t first = w.index(w.data.min.x, first_row);
+        const std::size_t first = w.index(Imath::V2i(w.data.min.x, first_row));
         const std::size_t pixels = std::size_t(last_row - first_row + 1) * width;
         const Imath::Box2i rows({w.data.min.x, first_row}, {w.data.max.x, last_row});
         pointers_.resize(planes.named.size());
@@ -195,7 +195,7 @@ Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const 
     rows.windows.data.min.y = first;
     rows.windows.data.max.y = last;
     const Planes planes = plan_planes(rows, channels, depth);
-    const auto begin = counts.begin() + std::ptrdiff_t(windows.index(windows.data.min.x, first));
+    const auto begin = counts.begin() + std::ptrdiff_t(windows.index(Imath::V2i(windows.data.min.x, first)));
     std::vector<unsigned> here(begin, begin + std::ptrdiff_t(rows.windows.pixels()));
     set_counts(rows, here);
     make_room(rows, planes, source);

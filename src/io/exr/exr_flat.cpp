@@ -388,8 +388,8 @@ std::string stored_pixels(const Image &image, const Imath::Box2i &box,
             const std::size_t size = bytes_of(image.channels[k].type);
             values.resize(across * size);
             store(image.channels[k].type,
-                  image.plane(k).data() + image.windows.index(box.min.x, box.min.y + int(row)), across,
-                  values.data());
+                  image.plane(k).data() + image.windows.index(Imath::V2i(box.min.x, box.min.y + int(row))),
+                  across, values.data());
             char *to = pixels.data() + row * across * in_pixel + offset;
             for (std::size_t x = 0; x < across; ++x, to += in_pixel) std::copy_n(&values[x * size], size, to);
             offset += size;

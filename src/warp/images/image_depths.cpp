@@ -145,7 +145,7 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
     }
     if (std::ranges::all_of(depths, [](float depth) { return std::isnan(depth); })) return;
     const auto tried_at = [&](const Imath::V2i &p) {
-        const float depth = tile.intersects(p) ? depths[pixels.index(p.x, p.y)] : unknown;
+        const float depth = tile.intersects(p) ? depths[pixels.index(p)] : unknown;
         return std::isnan(depth) ? depth_at(p, from) : depth;
     };
     const std::vector<float> means = robust_means(sweep_.differences(tile, tried_at), pixels.size());
@@ -238,7 +238,7 @@ public:
                 if (differences[(v - 1) * own.size() + n] <=
                     WarpTuning::image_shown_difference * usual[n] + WarpTuning::image_shown_least_difference)
                     add(views_[v], pixel, double(own[n]), seen);
-            store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), double(own[n]), seen);
+            store(ldi_.pixel(ldi_.windows.index(pixel)).front(), double(own[n]), seen);
         }
         return true;
     }
@@ -246,7 +246,7 @@ public:
 private:
     ImageSample centre(const Imath::V2i &pixel) const {
         const ViewSamples &view = views_[0].samples();
-        const std::uint64_t i = view.pixel(view.windows.index(pixel.x, pixel.y)).front();
+        const std::uint64_t i = view.pixel(view.windows.index(pixel)).front();
         return {&view, i, 0, 0, double(view.weight(i))};
     }
 
@@ -256,7 +256,7 @@ private:
         const double inverse_z = depth / scale_;
         const Imath::V2d middle(pixel.x + 0.5, pixel.y + 0.5), place = view.in_view(middle, depth);
         const Imath::V2i q(int(std::floor(place.x)), int(std::floor(place.y)));
-        if (!view.contains(q.x, q.y)) return;
+        if (!view.contains(q)) return;
         const float own = views_[0].depth(pixel.x, pixel.y);
         if (!kernels::is_one_surface(view.depth(q.x, q.y), own, one_mirror_px)) return;
         const Imath::V2d from(q.x + 0.5, q.y + 0.5);
@@ -264,7 +264,7 @@ private:
             view.mapping().at_infinity(from) + view.mapping().parallax(from) * inverse_z - middle;
         if (!(std::abs(off.x) <= 0.5 && std::abs(off.y) <= 0.5)) return;
         const ViewSamples &samples = view.samples();
-        const std::uint64_t i = samples.pixel(samples.windows.index(q.x, q.y)).front();
+        const std::uint64_t i = samples.pixel(samples.windows.index(q)).front();
         seen.push_back(
             {&samples, i, off.x, off.y, double(samples.weight(i)) * kernels::nearness(off.x, off.y)});
     }

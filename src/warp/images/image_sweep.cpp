@@ -248,8 +248,8 @@ constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
 constexpr std::size_t band_rows = 13; // of blocks: about as high as a tile of the views
 
 // The blocks of a picture of half the size that contain these blocks.
-std::vector<std::size_t> halved(const Tiles &tiles, const std::vector<std::size_t> &blocks,
-                                const Tiles &half) {
+std::vector<std::size_t> halved(const Tiles<> &tiles, const std::vector<std::size_t> &blocks,
+                                const Tiles<> &half) {
     std::vector<bool> marks(half.count());
     for (const std::size_t block : blocks) {
         const Grid pixels(reduced(tiles.box(block), 2));
@@ -284,8 +284,8 @@ std::vector<float> ImageGuesses::near(const Imath::Box2i &block) const {
     std::vector<float> found;
     for (int y = around.min.y - reach; y <= around.max.y + reach; ++y)
         for (int x = around.min.x - reach; x <= around.max.x + reach; ++x)
-            if (grid.contains(x, y) && !std::isnan(depths[grid.index(x, y)]))
-                found.push_back(2 * depths[grid.index(x, y)]);
+            if (grid.contains(Imath::V2i(x, y)) && !std::isnan(depths[grid.index(Imath::V2i(x, y))]))
+                found.push_back(2 * depths[grid.index(Imath::V2i(x, y))]);
     return found;
 }
 

@@ -80,7 +80,7 @@ private:
 
 // Calls visit(tile) for the tiles around a tile.
 template <typename Visit>
-void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
+void for_each_beside(const Tiles<> &tiles, std::size_t tile, const Visit &visit) {
     const int column = int(tile) % tiles.columns(), row = int(tile) / tiles.columns();
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, tiles.rows() - 1); ++r)
         for (int c = std::max(column - 1, 0); c <= std::min(column + 1, tiles.columns() - 1); ++c)
@@ -129,7 +129,7 @@ private:
 
     const ImageSweep &sweep_;
     Imath::Box2i box_;
-    Tiles tiles_;
+    Tiles<> tiles_;
     std::optional<ImageGuesses> guesses_; // of a picture of half the size, if it was searched
     std::vector<std::uint32_t> blocks_;   // [tile]: its place among the numbered blocks
     std::uint32_t count_ = 0;             // of blocks

@@ -62,7 +62,7 @@ void read_line(const Windows &windows, const Imath::V2i &first, std::span<float>
     const int begin = std::clamp(frame.min.x - first.x, 0, count - 1),
               end = std::clamp(frame.max.x + 1 - first.x, begin + 1, count);
     const int x = std::clamp(first.x + begin, frame.min.x, frame.max.x);
-    read(windows.index(x, y), out.subspan(std::size_t(begin), std::size_t(end - begin)));
+    read(windows.index(Imath::V2i(x, y)), out.subspan(std::size_t(begin), std::size_t(end - begin)));
     std::fill_n(out.begin(), begin, out[std::size_t(begin)]);
     std::fill(out.begin() + end, out.end(), out[std::size_t(end - 1)]);
 }
@@ -90,9 +90,9 @@ std::size_t MatchedView::bytes() const {
 }
 
 float MatchedView::depth(int x, int y) const {
-    if (!contains(x, y)) return unknown;
+    if (!contains(Imath::V2i(x, y))) return unknown;
     if (across_ == 1) {
-        const std::size_t pixel = grid_.index(x, y);
+        const std::size_t pixel = grid_.index(Imath::V2i(x, y));
         if (!view_.samples->is_single(pixel)) return unknown;
         return float(disparity(scale_, double(view_.samples->z(view_.samples->pixel(pixel).front()))));
     }
@@ -162,7 +162,7 @@ void MatchedView::make(std::size_t tile) const {
             if (rgb_[k] != npos) colours_of(k, from, line(k, y));
         depths_of(from, line(3, y));
         for (int x = 0; x < row + 2; ++x)
-            if (!contains(from.x + x, from.y)) line(3, y)[std::size_t(x)] = unknown;
+            if (!contains(from + Imath::V2i(x, 0))) line(3, y)[std::size_t(x)] = unknown;
     }
     std::vector<float> &planes = tiles_[tile].planes;
     {

@@ -41,7 +41,7 @@ public:
     MatchedView half() const { return {view_, scale_ * across_, 2 * across_}; }
     int across() const { return across_; }
 
-    bool contains(int x, int y) const { return grid_.contains(x, y); }
+    bool contains(const Imath::V2i &pixel) const { return grid_.contains(pixel); }
     Pixel at(int x, int y) const;
     // Interpolates between the middles of pixels, which lie at halves. The depth is that of the pixel that contains the
     // position. Returns false outside of the outermost middles.

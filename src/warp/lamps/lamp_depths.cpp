@@ -63,7 +63,7 @@ bool is_small(std::span<const Imath::V2i> pixels) {
 }
 
 double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
-    const SampleRange shown = view.pixel(view.windows.index(p.x, p.y));
+    const SampleRange shown = view.pixel(view.windows.index(p));
     return shown.empty() ? 0 : 1 / double(view.z(shown.front()));
 }
 
@@ -101,7 +101,7 @@ public:
 private:
     SeenLamp look_at(const CompactLamp &found, std::span<const double> around) const;
     double depth_of(const CompactLamp &found, std::span<const double> around) const;
-    double light_at(const Imath::V2i &p) const { return light_.at(view_.windows.index(p.x, p.y)); }
+    double light_at(const Imath::V2i &p) const { return light_.at(view_.windows.index(p)); }
     void move(const Imath::V2i &pixel, double inverse_z);
 
     ViewSamples &view_;
@@ -172,7 +172,7 @@ SeenLamp LampsOfView::look_at(const CompactLamp &found, std::span<const double> 
 }
 
 void LampsOfView::move(const Imath::V2i &pixel, double inverse_z) {
-    const SampleRange shown = view_.pixel(view_.windows.index(pixel.x, pixel.y));
+    const SampleRange shown = view_.pixel(view_.windows.index(pixel));
     if (!shown.empty()) view_.set_z(shown.front(), float(1 / inverse_z));
 }
 
@@ -191,7 +191,7 @@ std::vector<std::size_t> LampsOfView::crossed() const {
     std::vector<std::size_t> pixels;
     for (const SeenLamp &seen : lamps_)
         if (seen.is_crossed)
-            for (const Imath::V2i &p : seen.all) pixels.push_back(view_.windows.index(p.x, p.y));
+            for (const Imath::V2i &p : seen.all) pixels.push_back(view_.windows.index(p));
     std::ranges::sort(pixels);
     return pixels;
 }

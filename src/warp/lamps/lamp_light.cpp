@@ -60,14 +60,14 @@ double Calibration::inverse_depth(const CompactLamp &lamp) const {
         most = light;
         inverse_z = 1 / double(centre.z(i));
     };
-    lights_[0].visit(centre.windows.index(lamp.pixels[0].x, lamp.pixels[0].y), look);
+    lights_[0].visit(centre.windows.index(lamp.pixels[0]), look);
     return inverse_z;
 }
 
 bool Calibration::has_empty(const Pixels &pixels) const {
     const ViewSamples &centre = *views_[0].samples;
     return std::ranges::any_of(pixels, [&](const Imath::V2i &p) {
-        return centre.windows.data.intersects(p) && centre.pixel(centre.windows.index(p.x, p.y)).empty();
+        return centre.windows.data.intersects(p) && centre.pixel(centre.windows.index(p)).empty();
     });
 }
 
@@ -91,7 +91,7 @@ std::optional<double> Calibration::light_in(std::size_t view, const Pixels &pixe
     double sum = 0;
     for (const Imath::V2i &p : pixels) {
         if (!samples.windows.data.intersects(p)) return {};
-        const std::size_t pixel = samples.windows.index(p.x, p.y);
+        const std::size_t pixel = samples.windows.index(p);
         const SampleRange shown = samples.pixel(pixel);
         if (shown.empty() && !may_be_empty) return {};
         if (!shown.empty() && 1 / double(samples.z(shown.front())) > inverse_z + tolerance_) return {};
@@ -131,7 +131,7 @@ std::optional<Change> Calibration::change_of(const CompactLamp &lamp) const {
     double all = 0, of_lamp = 0;
     Change change;
     for (const Imath::V2i &p : pixels)
-        light_.visit(ldi_.windows.index(p.x, p.y), [&](std::uint64_t i, double light) {
+        light_.visit(ldi_.windows.index(p), [&](std::uint64_t i, double light) {
             all += light;
             if (!(light > double(lamp.limit)) || !is_among(own, p)) return;
             of_lamp += light;
@@ -175,7 +175,8 @@ std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, 
     std::vector<float> values;
     values.reserve(std::size_t(WarpTuning::lamp_block * WarpTuning::lamp_block));
     for (int y = box.min.y; y <= box.max.y; ++y) {
-        const auto row = brightness.subspan(grid.index(box.min.x, y), std::size_t(box.size().x) + 1);
+        const auto row =
+            brightness.subspan(grid.index(Imath::V2i(box.min.x, y)), std::size_t(box.size().x) + 1);
         values.insert(values.end(), row.begin(), row.end());
     }
     const auto [least, most] = std::ranges::minmax(values);
@@ -184,7 +185,7 @@ std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, 
     std::vector<Seed> seeds;
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x) {
-            const std::size_t i = grid.index(x, y);
+            const std::size_t i = grid.index(Imath::V2i(x, y));
             if (stands_out(brightness[i], middle, LampTuning::stands_out_of_view))
                 seeds.push_back({i, brightness[i], middle});
         }
@@ -222,8 +223,8 @@ private:
     bool take_around(Imath::V2i at, CompactLamp &lamp) {
         for (int y = at.y - WarpTuning::lamp_gap; y <= at.y + WarpTuning::lamp_gap; ++y)
             for (int x = at.x - WarpTuning::lamp_gap; x <= at.x + WarpTuning::lamp_gap; ++x) {
-                if (!grid_.contains(x, y)) continue;
-                const std::size_t i = grid_.index(x, y);
+                if (!grid_.contains(Imath::V2i(x, y))) continue;
+                const std::size_t i = grid_.index(Imath::V2i(x, y));
                 if (!(brightness_[i] > lamp.limit) || group_[i] == number_) continue;
                 if (group_[i] != 0) return false;
                 take(i, lamp);

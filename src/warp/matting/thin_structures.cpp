@@ -139,7 +139,8 @@ std::vector<Ground> grounds_elsewhere(const BackgroundFromViews &others, int x, 
         };
         if (std::ranges::any_of(asked, is_same)) continue;
         asked.push_back(ground.depth);
-        if (const auto colour = others.colour_behind({x, y}, ground.depth, WarpTuning::strand_apart_px))
+        if (const auto colour =
+                others.colour_behind(Position(x, y), ground.depth, WarpTuning::strand_apart_px))
             grounds.push_back({ground.depth, *colour});
     }
     return grounds;
@@ -166,11 +167,12 @@ std::optional<Mixture> mixture_with(std::span<const Ground> grounds, const Imath
 } // namespace
 
 bool among_strands(const SamplesAround &samples, int x, int y) {
-    const Grid &grid = samples.grid();
+    const ArrayGrid &grid = samples.grid();
     const auto jumps = [&](std::uint64_t i, int dx, int dy) {
-        if (dx > WarpTuning::strand_reach || dy > WarpTuning::strand_reach || !grid.contains(x + dx, y + dy))
+        if (dx > WarpTuning::strand_reach || dy > WarpTuning::strand_reach ||
+            !grid.contains(Position(x + dx, y + dy)))
             return false;
-        if (samples.is_empty(grid.index(x + dx, y + dy))) return false;
+        if (samples.is_empty(grid.index(Position(x + dx, y + dy)))) return false;
         return std::abs(samples.depth_of(samples.own_sample(x + dx, y + dy)) - samples.depth_of(i)) >
                WarpTuning::strand_apart_px;
     };
@@ -195,7 +197,8 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     const auto lamp = lamp_behind(samples, x, y, near_depth, apart, c / LampTuning::stands_out);
     if (!lamp) return {};
     if (is_strand && others)
-        if (const auto seen = others->brightest_at({x, y}, samples.depth_of(*lamp), near_depth - apart))
+        if (const auto seen =
+                others->brightest_at(Position(x, y), samples.depth_of(*lamp), near_depth - apart))
             if (stands_out(c, *seen)) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
     // A lamp's own pixel stays at its depth; a pixel of what is beside the lamp takes the lamp's depth.
@@ -237,9 +240,8 @@ Imath::V3d BackgroundFromViews::colour_of(const ViewSamples &samples, std::size_
 // Calls visit(view, pixel) for the pixels of the other flat views, not on their border, that look at that depth along
 // the ray of the own view's pixel.
 template <typename Visit>
-void BackgroundFromViews::for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const {
-    const Imath::V2i corner = views_[own_].windows.data.min;
-    const Imath::V2d middle(corner.x + pixel.x + 0.5, corner.y + pixel.y + 0.5);
+void BackgroundFromViews::for_each_other(const Position &pixel, double depth, const Visit &visit) const {
+    const Imath::V2d middle = Imath::V2d(views_[own_].windows.grid().pixel(pixel)) + Imath::V2d(0.5);
     const Imath::V2d in_centre =
         mappings_[own_].at_infinity(middle) + depth / scale_ * mappings_[own_].parallax(middle);
     for (std::size_t v = 0; v < views_.size(); ++v) {
@@ -248,7 +250,8 @@ void BackgroundFromViews::for_each_other(const Imath::V2i &pixel, double depth, 
         const Imath::V2d seen = mappings_[v].in_view(in_centre, depth / scale_);
         if (seen.x >= data.min.x + 1 && seen.x < data.max.x && seen.y >= data.min.y + 1 &&
             seen.y < data.max.y)
-            visit(views_[v], views_[v].windows.index(int(std::floor(seen.x)), int(std::floor(seen.y))));
+            visit(views_[v],
+                  views_[v].windows.index(Imath::V2i(int(std::floor(seen.x)), int(std::floor(seen.y)))));
     }
 }
 
@@ -264,7 +267,7 @@ BackgroundFromViews::Around BackgroundFromViews::around(const ViewSamples &sampl
     return all;
 }
 
-std::optional<double> BackgroundFromViews::brightest_at(const Imath::V2i &pixel, double depth,
+std::optional<double> BackgroundFromViews::brightest_at(const Position &pixel, double depth,
                                                         double nearest) const {
     std::optional<double> brightest;
     for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
@@ -274,7 +277,7 @@ std::optional<double> BackgroundFromViews::brightest_at(const Imath::V2i &pixel,
     return brightest;
 }
 
-std::optional<Imath::V3d> BackgroundFromViews::colour_behind(const Imath::V2i &pixel, double depth,
+std::optional<Imath::V3d> BackgroundFromViews::colour_behind(const Position &pixel, double depth,
                                                              double apart) const {
     Imath::V3d sum(0, 0, 0);
     int count = 0;

@@ -38,18 +38,18 @@ public:
     BackgroundFromViews(std::span<const ViewSamples> views, std::span<const ViewMapping> mappings,
                         std::size_t own, double scale);
 
-    // Returns the colour of the surface at that disparity, where the ray of the own view's pixel (from the
-    // window's corner) meets it: the mean over the other flat views that show the surface there, opaque, and nothing
+    // Returns the colour of the surface at that disparity, where the ray of the own view's pixel meets
+    // it: the mean over the other flat views that show the surface there, opaque, and nothing
     // that is nearer by `apart` or more in that pixel or beside it. Returns nothing if there is no such view.
-    std::optional<Imath::V3d> colour_behind(const Imath::V2i &pixel, double depth, double apart) const;
+    std::optional<Imath::V3d> colour_behind(const Position &pixel, double depth, double apart) const;
 
     // Returns the brightness of the brightest pixel where the other flat views look at that depth, or beside it.
     // A view with something as near as `nearest` there does not count; returns nothing if none counts.
-    std::optional<double> brightest_at(const Imath::V2i &pixel, double depth, double nearest) const;
+    std::optional<double> brightest_at(const Position &pixel, double depth, double nearest) const;
 
 private:
     template <typename Visit>
-    void for_each_other(const Imath::V2i &pixel, double depth, const Visit &visit) const;
+    void for_each_other(const Position &pixel, double depth, const Visit &visit) const;
     Imath::V3d colour_of(const ViewSamples &samples, std::size_t pixel) const;
     struct Around { // of three by three pixels
         double nearest = 0, brightest = 0;
@@ -70,7 +70,7 @@ class SamplesAround {
 public:
     // Refers to the view; scale is R F, pixels times scene units.
     SamplesAround(const ViewSamples &view, double scale)
-        : view_(view), grid_(view.windows.width(), view.windows.height()), alpha_(view.alpha()),
+        : view_(view), grid_(view.windows.grid().array()), alpha_(view.alpha()),
           rgb_(find_rgb(view.channels)), depths_(grid_.size()) {
         parallel_ranges(depths_.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) depths_[i] = disparity(scale, double(view.z(i)));
@@ -78,9 +78,9 @@ public:
     }
 
     bool have_colours() const { return alpha_ != npos && all_found(rgb_); }
-    const Grid &grid() const { return grid_; } // of the window, from its corner
+    const ArrayGrid &grid() const { return grid_; }
     bool is_empty(std::size_t pixel) const { return view_.pixel(pixel).empty(); }
-    std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
+    std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(Position(x, y))).front(); }
 
     double depth_of(std::uint64_t i) const { return depths_[i]; }
     std::span<const double> depths() const { return depths_; } // of all pixels
@@ -100,13 +100,13 @@ public:
     void around(int x, int y, int reach, const Visit &visit) const {
         for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)
             for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid_.width() - 1); ++u)
-                if (const std::size_t pixel = grid_.index(u, v); !is_empty(pixel))
+                if (const std::size_t pixel = grid_.index(Position(u, v)); !is_empty(pixel))
                     visit(view_.pixel(pixel).front(), u - x, v - y);
     }
 
 private:
     const ViewSamples &view_;
-    Grid grid_;
+    ArrayGrid grid_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
     std::vector<double> depths_; // of each pixel

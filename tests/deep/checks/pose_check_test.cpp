@@ -46,7 +46,7 @@ View mirror_before_wall(const Imath::V2d &position) {
             const double z = 6;
             const Imath::V2d seen((x + 0.5 - 80) / focal_px * z + position.x,
                                   -(y + 0.5 - 60) / focal_px * z + position.y);
-            view.image.at(red, x, y) = view.z[w.index(x, y)] < 5 ? pattern(seen.x, seen.y, z) : 1;
+            view.image.at(red, x, y) = view.z[w.index(Imath::V2i(x, y))] < 5 ? pattern(seen.x, seen.y, z) : 1;
         }
     return view;
 }
@@ -172,7 +172,7 @@ View shifted(const View &view, const Imath::V2i &by) {
         for (int x = w.data.min.x; x <= w.data.max.x; ++x) {
             const Imath::V2i from(std::clamp(x - by.x, w.data.min.x, w.data.max.x),
                                   std::clamp(y - by.y, w.data.min.y, w.data.max.y));
-            moved.z[w.index(x, y)] = view.z[w.index(from.x, from.y)];
+            moved.z[w.index(Imath::V2i(x, y))] = view.z[w.index(from)];
             for (std::size_t k = 0; k < view.image.channels.size(); ++k)
                 moved.image.at(k, x, y) = view.image.at(k, from.x, from.y);
         }

@@ -10,7 +10,7 @@ namespace {
 
 // A floor from 1 to 9 before a wall, with depths written as `value`.
 bool seems_white_near(const std::function<double(double z)> &value) {
-    const Grid grid(64, 64);
+    const ArrayGrid grid(64, 64);
     std::vector<float> depths;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {

@@ -31,7 +31,7 @@ TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
     const SampleRun all{0, count};
     const std::vector<Footprint> footprints =
         footprints_of(ldi, {blocked.x, blocked.y, blocked.coc, blocked.upper, blocked.source},
-                      {{0, 0}, {size - 1, size - 1}}, all, std::span(&all, 1));
+                      {Position(0, 0), Position(size - 1, size - 1)}, all, std::span(&all, 1));
     std::vector<std::uint32_t> places(count);
     for (std::uint32_t i = 0; i < count; ++i) places[blocked.source[i]] = i;
     const auto at = [&](int x, int y) { return footprints[places[std::size_t(y * size + x)]]; };
@@ -62,7 +62,7 @@ TEST(Footprint, OfASteepSurfaceSharesItsEdgesWhereThatGoesOn) {
     const Links links(ldi, lens);
     const BlockedSamples blocked = BlockedLdi(ldi, lens).samples;
     const SampleRun all{0, std::uint32_t(blocked.count())};
-    const Imath::Box2i pixels({0, 0}, {size - 1, size - 1});
+    const PositionBox pixels{Position(0, 0), Position(size - 1, size - 1)};
     const SamplesInPicture alone{blocked.x, blocked.y, blocked.coc, blocked.upper, blocked.source};
     SamplesInPicture joined = alone;
     joined.links = &links;
@@ -76,7 +76,7 @@ TEST(Footprint, OfASteepSurfaceSharesItsEdgesWhereThatGoesOn) {
         EXPECT_EQ(footprints[i].place, parted[i].place);
     }
     EXPECT_NEAR(coc_to_edges(&links, pixels), 1.5, 1e-5);
-    EXPECT_EQ(coc_to_edges(&links, {{8, 0}, {size - 1, size - 1}}), 0.5f);
+    EXPECT_EQ(coc_to_edges(&links, {Position(8, 0), Position(size - 1, size - 1)}), 0.5f);
     EXPECT_EQ(coc_to_edges(nullptr, pixels), 0.5f);
 }
 

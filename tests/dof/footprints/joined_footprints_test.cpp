@@ -24,7 +24,8 @@ struct Block : BlockedLdi {
     explicit Block(const Ldi &from) : BlockedLdi(from, lens) {
         const SampleRun all{samples.blocks[0].begin, samples.blocks[0].end};
         const SamplesInPicture seen{samples.x, samples.y, samples.coc, samples.upper, samples.source};
-        of_samples = footprints_of(ldi, seen, {{0, 0}, {size - 1, size - 1}}, all, std::span(&all, 1));
+        of_samples =
+            footprints_of(ldi, seen, {Position(0, 0), Position(size - 1, size - 1)}, all, std::span(&all, 1));
         of_surfaces = joined(seen, all, samples.blocks[0].opaque_end, of_samples);
     }
 };

@@ -63,7 +63,8 @@ TEST(HidingFillers, AreNotThoseOfLamps) {
     constexpr int rows = 10, board = 6;
     std::vector<std::uint32_t> wall;
     for (int y = 0; y < rows; ++y) {
-        for (const std::size_t pixel : {ldi.windows.index(39, y), ldi.windows.index(46, y)})
+        for (const std::size_t pixel :
+             {ldi.windows.index(Imath::V2i(39, y)), ldi.windows.index(Imath::V2i(46, y))})
             wall.push_back(place_of(blocked.samples, ldi, pixel, ldi.pixel(pixel).front()));
     }
     std::ranges::sort(wall);

@@ -102,7 +102,7 @@ TEST(Fillers, AreWhatTheRuleSays) {
         const Imath::Box2i known({5, 4}, {60, 45});
         const auto ground = [&](int x, int y) { // disparity, -1: unknown
             double left = 1, depth = -1;
-            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y)))) {
                 const double alpha = opaque ? 1 : double(ldi.values[ldi.alpha()][i]);
                 left *= 1 - alpha;
                 if (alpha >= 0.5) depth = disparity(lens, double(ldi.z[i]));
@@ -113,7 +113,7 @@ TEST(Fillers, AreWhatTheRuleSays) {
             return to >= 0 && to - from > std::max(0.5, (n - 1) / std::sqrt(2.0));
         };
         const auto distance = [&](int x, int y, int dx, int dy) { // 1000: none continues
-            for (int n = 1; ldi.windows.grid().contains(x - n * dx, y - n * dy); ++n) {
+            for (int n = 1; ldi.windows.grid().contains(Imath::V2i(x - n * dx, y - n * dy)); ++n) {
                 const double from = ground(x - n * dx, y - n * dy);
                 bool on = from >= 0;
                 for (int m = 1; m <= n && on; ++m)
@@ -131,13 +131,13 @@ TEST(Fillers, AreWhatTheRuleSays) {
                     const int n = distance(x, y, d.x, d.y);
                     if (n == 1000 || n > nearest) continue;
                     const double depth = ground(x - n * d.x, y - n * d.y);
-                    double &e = expected[ldi.windows.index(x, y)];
+                    double &e = expected[ldi.windows.index(Imath::V2i(x, y))];
                     e = n < nearest ? depth : std::min(e, depth);
                     nearest = n;
                 }
-                double &e = expected[ldi.windows.index(x, y)];
+                double &e = expected[ldi.windows.index(Imath::V2i(x, y))];
                 bool is_seen = false;
-                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y)))
+                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y))))
                     is_seen = is_seen || std::abs(disparity(lens, double(ldi.z[i])) - e) < 0.5;
                 if (e > 0 && is_seen) e = -1;
             }

@@ -41,7 +41,7 @@ std::vector<float> values(const FrameExtension &of, int first, int last) {
             found.push_back(unknown);
             continue;
         }
-        const std::size_t pixel = of.ldi.windows.index(x, 0);
+        const std::size_t pixel = of.ldi.windows.index(Imath::V2i(x, 0));
         const SampleRange samples = of.ldi.pixel(pixel);
         found.push_back(!samples.empty() ? of.ldi.values[0][samples.front()]
                         : of.unseen[pixel] || !of.known.intersects(Imath::V2i(x, 0)) ? unknown
@@ -143,7 +143,7 @@ TEST(FrameExtension, WhatIsSeeThroughInsideDoesNotAppearAtTheBorder) {
         });
         const FrameExtension all = beyond(ldi, ldi.windows.data);
         for (int y = all.ldi.windows.data.min.y; y < 0; ++y)
-            for (const std::uint64_t i : all.ldi.pixel(all.ldi.windows.index(4, y)))
+            for (const std::uint64_t i : all.ldi.pixel(all.ldi.windows.index(Imath::V2i(4, y))))
                 EXPECT_EQ(all.ldi.values[0][i], 0.5f) << rows << " rows, row " << y;
     }
 }
@@ -172,11 +172,11 @@ TEST(FrameExtension, KeepsCoverageAndWhatIsBehind) {
                    : std::vector<Sample>{{depth_of(lens, -4), {0.2f, 0.25f}}, {depth_of(lens, 3), {0.5f, 1}}};
     });
     const FrameExtension all = beyond(ldi, ldi.windows.data);
-    const SampleRange samples = all.ldi.pixel(all.ldi.windows.index(24, 0));
+    const SampleRange samples = all.ldi.pixel(all.ldi.windows.index(Imath::V2i(24, 0)));
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_EQ(all.ldi.values[1][samples.front()], 0.25f);
-    EXPECT_TRUE(all.unseen[all.ldi.windows.index(24, 0)]);
-    EXPECT_FALSE(all.unseen[all.ldi.windows.index(-1, 0)]);
+    EXPECT_TRUE(all.unseen[all.ldi.windows.index(Imath::V2i(24, 0))]);
+    EXPECT_FALSE(all.unseen[all.ldi.windows.index(Imath::V2i(-1, 0))]);
 }
 
 // A lamp of radius 5 pixels that is cut off 3 pixels from its middle has 2 pixels beyond.
@@ -187,7 +187,7 @@ TEST(FrameExtension, SmallLightsGoOnAsDiscs) {
     });
     const FrameExtension all = beyond(ldi, ldi.windows.data);
     const auto value = [&](int x, int y) {
-        return all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()];
+        return all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(Imath::V2i(x, y))).front()];
     };
     EXPECT_EQ(value(0, 40), 100);
     EXPECT_NEAR(value(-1, 40), 100, 1e-4);
@@ -196,7 +196,7 @@ TEST(FrameExtension, SmallLightsGoOnAsDiscs) {
     EXPECT_NEAR(light, 2 * 1.75, 1); // 2 pixels, and the remaining light farther away
     EXPECT_EQ(value(-5, 33), 1);
     EXPECT_EQ(value(-5, 9), 3); // less than four times as bright: continues
-    EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
+    EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(Imath::V2i(-5, 40))).front()], 1);
 }
 
 // A lamp of radius 5 pixels is 5 pixels beyond the frame at a disparity of 4 pixels: rim views saw four columns of it.
@@ -210,7 +210,8 @@ TEST(FrameExtension, SmallLightsThatViewsCutOffGoOnAsDiscs) {
     });
     const FrameExtension all = extend_beyond_frame(ldi, lens, frame, frame, {20, 20});
     const auto light = [&](int x, int y) {
-        return double(all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()]) / 100;
+        return double(all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(Imath::V2i(x, y))).front()]) /
+               100;
     };
     for (int x = 1; x < 6; ++x) EXPECT_EQ(light(x, 40), 1) << x;
     EXPECT_LT(light(-6, 40), 0.3);
@@ -231,8 +232,7 @@ TEST(FrameExtension, IsWhatTheRuleSays) {
             return left >= 1.0 / 2048;
         };
         const auto of_pixel = [&](const Imath::V2i &at) {
-            return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y))
-                                                   : SampleRange{0, 0};
+            return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at)) : SampleRange{0, 0};
         };
         const auto near = [&](std::uint64_t k) { return disparity(lens, double(ldi.z[k])); };
         // The samples m pixels from the frame beyond which no view looked, or one pixel farther with no sample.
@@ -320,7 +320,7 @@ TEST(FrameExtension, IsWhatTheRuleSays) {
                 std::vector<float> expected, found;
                 for (const std::uint64_t i : there.samples) expected.push_back(ldi.z[i]);
                 std::ranges::sort(expected);
-                const std::size_t pixel = all.ldi.windows.index(x, y);
+                const std::size_t pixel = all.ldi.windows.index(Imath::V2i(x, y));
                 for (const std::uint64_t i : all.ldi.pixel(pixel)) found.push_back(all.ldi.z[i]);
                 ASSERT_EQ(found, expected) << p;
                 ASSERT_EQ(!all.unseen[pixel], there.open) << p;
@@ -375,7 +375,7 @@ class Convolution {
 public:
     explicit Convolution(const Inside &inside) : grid_(width + 2 * around, height + 2 * around) {
         for (std::size_t i = 0; i < grid_.size(); ++i) {
-            const Imath::V2i at = grid_.pixel(i) - Imath::V2i(around);
+            const Imath::V2i at = grid_.position(i) - Position(around, around);
             covered_.push_back(covered_share(inside, at.x, at.y));
         }
     }
@@ -395,8 +395,8 @@ public:
 
 private:
     static constexpr int around = 35;
-    double here(int x, int y) const { return covered_[grid_.index(x + around, y + around)]; }
-    Grid grid_;
+    double here(int x, int y) const { return covered_[grid_.index(Position(x + around, y + around))]; }
+    ArrayGrid grid_;
     std::vector<double> covered_;
 };
 

@@ -23,7 +23,7 @@ constexpr std::size_t red_channel = 0, alpha = 3;
 
 struct Blocked : BlockedLdi {
     using BlockedLdi::BlockedLdi;
-    Highlights take(const std::optional<Imath::Box2i> &seen = {}) {
+    Highlights take(const std::optional<PositionBox> &seen = {}) {
         return take_highlights(ldi, samples, colours, seen);
     }
 };
@@ -149,11 +149,11 @@ TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
     });
     EXPECT_GT(Blocked(ldi, wide).take().sample.size(), 240u);
     Blocked blocked(ldi, wide);
-    const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
+    const Highlights highlights = blocked.take(PositionBox{Position(0, 0), Position(11, 63)});
     ASSERT_EQ(highlights.sample.size(), 1u);
     EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 5.5f);
     // Where nothing was seen, all the existing samples are asked.
-    EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 240u);
+    EXPECT_GT(Blocked(ldi, wide).take(PositionBox{Position(-9, 0), Position(-1, 63)}).sample.size(), 240u);
 }
 
 // Only the dark part was seen. The made-up part beside it is bright all over, and only its lamp stands out of it.
@@ -162,7 +162,7 @@ TEST(TakeHighlights, AsksWhatIsMadeUpToStandOutOfItself) {
         return x < 12 ? 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1)) : x == 40 && y == 40 ? 60.0f : 0.0f;
     });
     Blocked blocked(ldi, wide);
-    const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
+    const Highlights highlights = blocked.take(PositionBox{Position(0, 0), Position(11, 63)});
     ASSERT_EQ(highlights.sample.size(), 1u);
     EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 40.5f);
 }

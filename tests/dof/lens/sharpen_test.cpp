@@ -132,9 +132,9 @@ TEST(Sharpen, LetsGoOfASurfaceByAndBy) {
         });
         BlockedLdi blocked(ldi, by);
         sharpen_near_focus(ldi, by, blocked.samples, blocked.colours);
-        const std::uint64_t sample = ldi.pixel(ldi.windows.index(33, 32)).front();
+        const std::uint64_t sample = ldi.pixel(ldi.windows.index(Imath::V2i(33, 32))).front();
         const std::size_t place =
-            place_of(blocked.samples, ldi, ldi.windows.index(33, 32), std::uint32_t(sample));
+            place_of(blocked.samples, ldi, ldi.windows.index(Imath::V2i(33, 32)), std::uint32_t(sample));
         return double(blocked.colours.at(0, place));
     };
     constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of disparity between the surfaces

@@ -62,7 +62,7 @@ Shares shares(const Ldi &ldi, double image_z, double within) {
     int pixels = 0;
     for (int y = border; y < window.height() - border; ++y)
         for (int x = border; x < window.width() - border; ++x, ++pixels) {
-            const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+            const std::uint64_t i = ldi.pixel(ldi.windows.index(Imath::V2i(x, y))).front();
             if (ldi.image_z.empty() || ldi.image_z[i] == ldi.z[i]) continue;
             shares.found += 1;
             shares.right += std::abs(scale / ldi.coc_z(i) - scale / image_z) < within;
@@ -147,7 +147,7 @@ TEST(Images, ReachTheEdgesOfASteepMirrorAndEndThere) {
     for (int y = 12; y < window.height() - 12; ++y)
         for (int x = left; x < post_end; ++x) {
             if (x >= end && x < post_begin) continue; // other views show the post there
-            const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+            const std::uint64_t i = ldi.pixel(ldi.windows.index(Imath::V2i(x, y))).front();
             wrong += !(std::abs(scale / ldi.coc_z(i) - (x < end ? scale / image_z : post)) < 0.1);
         }
     EXPECT_EQ(wrong, 0);
@@ -167,7 +167,7 @@ TEST(Images, ViewsAreAveragedWhereTheyAgree) {
         double sum = 0;
         for (int y = 16; y < 56; ++y)
             for (int x = 16; x < 80; ++x) {
-                const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+                const std::uint64_t i = ldi.pixel(ldi.windows.index(Imath::V2i(x, y))).front();
                 const double seen = double(ldi.values[0][i]);
                 sum += std::pow(
                     seen - double(waves(x + 0.5 + double(ldi.dx[i]), y + 0.5 + double(ldi.dy[i]))), 2);

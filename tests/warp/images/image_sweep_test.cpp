@@ -99,8 +99,8 @@ TEST(ImageSearch, WhereTheSmallerPictureShowsNothingNoDepthIsTried) {
 }
 
 TEST(ImageSearch, GuessesAreOfThePixelsAround) {
-    ImageGuesses guesses{Grid(40, 30), std::vector<float>(1200, NAN)};
-    guesses.depths[guesses.grid.index(20, 10)] = 3;
+    ImageGuesses guesses{windows_of_size(40, 30).grid(), std::vector<float>(1200, NAN)};
+    guesses.depths[guesses.grid.index(Imath::V2i(20, 10))] = 3;
     EXPECT_EQ(guesses.near({{40, 16}, {47, 23}}), std::vector{6.0f});
     EXPECT_EQ(guesses.near({{32, 24}, {39, 31}}), std::vector{6.0f});
     EXPECT_TRUE(guesses.near({{48, 16}, {55, 23}}).empty());

@@ -33,7 +33,7 @@ float smoothed(const Ldi &ldi, std::size_t channel, int x, int y) {
         for (int dx = -1; dx <= 1; ++dx) {
             const int u = std::clamp(x + dx, data.min.x, data.max.x),
                       v = std::clamp(y + dy, data.min.y, data.max.y);
-            const SampleRange samples = ldi.pixel(ldi.windows.index(u, v));
+            const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(u, v)));
             const float value = samples.empty() ? 0 : ldi.values[channel][samples.front()];
             sum += float((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16 * value / (1 + std::abs(value));
         }
@@ -52,7 +52,7 @@ struct Matched {
 };
 
 float own_depth(const Ldi &ldi, int x, int y) {
-    const SampleRange samples = ldi.pixel(ldi.windows.index(x, y));
+    const SampleRange samples = ldi.pixel(ldi.windows.index(Imath::V2i(x, y)));
     return samples.size() == 1 ? float(scale / double(ldi.z[samples.front()]))
                                : std::numeric_limits<float>::quiet_NaN();
 }
@@ -99,15 +99,15 @@ TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
     const MatchedView &view = matched.view, half = view.half();
     const Imath::Box2i &data = matched.data;
     const auto sharp = [&](std::size_t k, int x, int y) {
-        const std::size_t i = samples.windows.index(std::clamp(x, data.min.x, data.max.x),
-                                                    std::clamp(y, data.min.y, data.max.y));
+        const std::size_t i = samples.windows.index(
+            Imath::V2i(std::clamp(x, data.min.x, data.max.x), std::clamp(y, data.min.y, data.max.y)));
         const float value = samples.pixel(i).empty() ? 0 : samples.value(k, i);
         return value / (1 + std::abs(value));
     };
     int known = 0;
     for (int y = 2; y <= 96; ++y)
         for (int x = -3; x <= 120; ++x) {
-            ASSERT_EQ(half.contains(x, y), y > 0);
+            ASSERT_EQ(half.contains(Imath::V2i(x, y)), y > 0);
             for (std::size_t k = 0; k < 3; ++k) {
                 float sum = 0;
                 for (int v = -2; v < 4; ++v)

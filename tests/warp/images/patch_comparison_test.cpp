@@ -46,7 +46,7 @@ float slowly(const Pair &pair, const Imath::V2i &p, float surface, double depth)
     int count = 0;
     for (int y = p.y - 3; y <= p.y + 3; ++y)
         for (int x = p.x - 3; x <= p.x + 3; ++x) {
-            if (!pair.centre.contains(x, y)) continue;
+            if (!pair.centre.contains(Imath::V2i(x, y))) continue;
             const MatchedView::Pixel own = pair.centre.at(x, y);
             MatchedView::Pixel seen;
             if (!(std::abs(own[3] - surface) < 1) ||

@@ -134,12 +134,12 @@ TEST(LampLight, IsTheMeanOfTheViews) {
         return in_lamp(x, y) ? ViewPixel{.z = 5, .r = 1000.0f + 10 * float(view), .g = 500, .b = 0}
                              : grey(10, 1);
     });
-    const std::size_t pixel = ldi.windows.index(10, 11);
+    const std::size_t pixel = ldi.windows.index(Imath::V2i(10, 11));
     const double expected = 1500 + 10 * 2;
     EXPECT_NEAR(double(ldi.values[0][pixel]), expected * 1000 / 1500, 0.1);
     EXPECT_NEAR(double(ldi.values[1][pixel]), expected * 500 / 1500, 0.1);
     EXPECT_EQ(ldi.values[3][pixel], 1);
-    EXPECT_EQ(ldi.values[0][ldi.windows.index(12, 11)], 1);
+    EXPECT_EQ(ldi.values[0][ldi.windows.index(Imath::V2i(12, 11))], 1);
 }
 
 TEST(LampLight, IsThatOfTheViewsThatSeeAllOfIt) {

@@ -32,7 +32,7 @@ struct Scene {
         }
     }
     std::optional<Imath::V3d> behind(std::size_t own, int x, double depth = 2) const {
-        return BackgroundFromViews(samples, mappings, own, scale).colour_behind({x, 4}, depth, 1);
+        return BackgroundFromViews(samples, mappings, own, scale).colour_behind(Position(x, 4), depth, 1);
     }
 };
 

@@ -133,7 +133,7 @@ TEST(MatteShares, CoveragesOfOpaqueViewsAddUpToOne) {
     const Image seen = gather_mattes(ldi, lens, frame, {.quality = Quality::draft}, silent);
     for (std::size_t i = 0; i < seen.windows.pixels(); ++i) {
         const Imath::V2i at = seen.windows.pixel(i);
-        EXPECT_NEAR(sum_in(flat, flat.windows.index(at.x, at.y)), 1, 1e-3);
+        EXPECT_NEAR(sum_in(flat, flat.windows.index(at)), 1, 1e-3);
         EXPECT_NEAR(sum_in(seen, i), 1, 1e-3);
     }
 }

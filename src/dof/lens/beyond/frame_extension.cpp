@@ -103,7 +103,7 @@ public:
     bool closed(const SampleRange &range) const { return !lets_through(ldi_, alpha_, range); }
     // The samples of a pixel; none outside of the data window.
     SampleRange samples(const Imath::V2i &at) const {
-        return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
+        return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at)) : SampleRange{};
     }
     double depth(std::uint64_t sample) const { return disparity(lens_, double(ldi_.z[sample])); }
 
