@@ -23,7 +23,7 @@ float disparity(int x, int y) { return float(16 * y + x) / 255; }
 
 constexpr int width = 16, height = 12;
 
-class Photograph : public testing::Test {
+class PhotographFiles : public testing::Test {
 protected:
     ScratchFolder folder;
 
@@ -83,7 +83,7 @@ const std::vector<Windows> &windows_of_exr() {
     return all;
 }
 
-TEST_F(Photograph, DepthBelongsToTheFrameOfTheColours) {
+TEST_F(PhotographFiles, DepthBelongsToTheFrameOfTheColours) {
     const std::string depth = shown("depth.png");
     for (const Windows &windows : windows_of_exr()) {
         SCOPED_TRACE(size_text(windows.data));
@@ -91,7 +91,7 @@ TEST_F(Photograph, DepthBelongsToTheFrameOfTheColours) {
     }
 }
 
-TEST_F(Photograph, DepthInAnExrMayHaveAnyWindow) {
+TEST_F(PhotographFiles, DepthInAnExrMayHaveAnyWindow) {
     const std::string picture = shown("picture.png");
     for (const Windows &windows : windows_of_exr()) {
         SCOPED_TRACE(size_text(windows.data));
@@ -105,13 +105,13 @@ TEST_F(Photograph, DepthInAnExrMayHaveAnyWindow) {
     }
 }
 
-TEST_F(Photograph, DepthOfAnotherSizeIsRefused) {
+TEST_F(PhotographFiles, DepthOfAnotherSizeIsRefused) {
     const std::string picture = shown("picture.png"), small = shown("small.png", windows_of_size(8, 6));
     EXPECT_NE(what_of<Error>([&] { depths(picture, small); }).find("small.png: is 8x6 pixels large"),
               std::string::npos);
 }
 
-TEST_F(Photograph, DepthThatWasNotTurnedIsTurned) {
+TEST_F(PhotographFiles, DepthThatWasNotTurnedIsTurned) {
     Image picture(windows_of_size(width, height), rgba_channels()), depth = picture;
     for (std::size_t i = 0; i < depth.windows.pixels(); ++i)
         for (std::size_t k = 0; k < 3; ++k) depth.plane(k)[i] = float(i % 200) / 255;
@@ -132,7 +132,7 @@ TEST_F(Photograph, DepthThatWasNotTurnedIsTurned) {
 }
 
 // What JPEG does to grey is a rounding; more is a colour map.
-TEST_F(Photograph, DepthMustBeGrey) {
+TEST_F(PhotographFiles, DepthMustBeGrey) {
     const std::string picture = shown("picture.png");
     const auto of_colours = [&](float off) {
         Image depth(windows_of_size(width, height), {{"R"}, {"G"}, {"B"}});
@@ -149,7 +149,7 @@ TEST_F(Photograph, DepthMustBeGrey) {
 }
 
 // Colours are multiplied by A as in any picture; a depth is not.
-TEST_F(Photograph, AlphaIsKeptAndDarkensNoDepth) {
+TEST_F(PhotographFiles, AlphaIsKeptAndDarkensNoDepth) {
     Image cut(windows_of_size(width, height), rgba_channels());
     for (int x = 0; x < width; ++x)
         for (int y = 0; y < height; ++y) {
@@ -177,7 +177,7 @@ TEST_F(Photograph, AlphaIsKeptAndDarkensNoDepth) {
     EXPECT_EQ(find_channel(opaque.ldi.channels, "A"), npos);
 }
 
-TEST_F(Photograph, FloatingPointColoursAreLinear) {
+TEST_F(PhotographFiles, FloatingPointColoursAreLinear) {
     const std::string depth = shown("depth.png");
     for (const char *name : {"a.hdr", "a.pfm", "a.png"}) {
         if (std::string(name) == "a.pfm")
@@ -190,13 +190,13 @@ TEST_F(Photograph, FloatingPointColoursAreLinear) {
     }
 }
 
-TEST_F(Photograph, FlatPicturesMayBeLarge) {
+TEST_F(PhotographFiles, FlatPicturesMayBeLarge) {
     write_shown_picture(folder.file("flat.png"), Image(windows_of_size(4000, 2500), {{"R"}, {"G"}, {"B"}}));
     EXPECT_EQ(read_shown_picture(folder.file("flat.png")).image.windows.width(), 4000);
 }
 
 // A part of a file is no picture. The last bytes of a file may say nothing about its pixels.
-TEST_F(Photograph, HalfAFileIsRefused) {
+TEST_F(PhotographFiles, HalfAFileIsRefused) {
     for (const char *name : {"a.jpg", "a.png", "a.tif", "a.webp", "a.bmp"}) {
         const std::string whole = contents_of(shown(name, windows_of_size(60, 40)));
         for (const double part : {0.2, 0.5, 0.9}) {
