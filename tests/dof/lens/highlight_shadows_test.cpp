@@ -13,7 +13,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace sparselens {
@@ -69,9 +71,9 @@ struct LampBehindBoards : BlockedLdi {
     }
 
     // The lit share at each pixel of the tile, for each sample of the lamp in turn.
-    std::vector<float> lit(bool together) {
+    std::vector<float> lit(bool together, const CoarseCasters *coarse = nullptr) {
         HighlightShadows shadows(highlights, {{samples, footprints}, {solids, solid_footprints}});
-        shadows.begin({0, 0}, 1, {1, 1});
+        shadows.begin({0, 0}, 1, {1, 1}, coarse);
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);
@@ -137,6 +139,73 @@ TEST(HighlightShadows, OfWhatStandsRightBeforeALampAreCastForEachSample) {
     const std::vector<float> together = scene.lit(true), alone = scene.lit(false);
     EXPECT_EQ(together, alone);
     EXPECT_LT(mean(alone), 0.99);
+}
+
+// Three lamps around the point (11, 31), 0.12 pixels apart and behind things of given CoCs (NaN: nothing is there). The
+// first is their middle. The last has the CoC 81, the others 80.
+Ldi three_lamps(const std::function<double(int x, int y)> &coc_at) {
+    return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+        std::vector<Sample> samples;
+        if (!std::isnan(coc_at(x, y))) samples.push_back({depth_of(lens, coc_at(x, y)), {0, 0, 0, 1}});
+        if ((x == 10 && (y == 30 || y == 31)) || (x == 11 && y == 30))
+            samples.push_back({depth_of(lens, y == 31 ? 81 : 80),
+                               {900, 900, 900, 0.5f},
+                               x == 10 ? 0.44f : -0.44f,
+                               y == 30 ? 0.44f : -0.44f});
+        samples.push_back({depth_of(lens, 90), {1, 1, 1, 1}});
+        return samples;
+    });
+}
+
+// Whether each of the three lamps lights a pixel, all or none of it.
+std::array<bool, 3> lights(const std::vector<float> &lit, int x, int y) {
+    std::array<bool, 3> result{};
+    for (std::size_t lamp = 0; lamp < 3; ++lamp) {
+        const float share = lit[(lamp * size + std::size_t(y)) * size + std::size_t(x)];
+        EXPECT_TRUE(share == 0 || share == 1);
+        result[lamp] = share == 1;
+    }
+    return result;
+}
+constexpr std::array<bool, 3> all_light{true, true, true}, none_lights{}, last_does_not{true, true, false};
+
+// A thing of CoC 71.3, whose left edge lies 6 pixels beside the lamps, casts a shadow from pixel 65 or 66 on for lamps of
+// CoC 80, beyond the tile, and from pixel 61 on for the lamp of CoC 81. Something in focus hides the pixels that it
+// covers from each.
+TEST(HighlightShadows, OnALampFartherThanItsGroupAreCastWithThoseThatAllShare) {
+    const Ldi ldi = three_lamps([](int x, int y) {
+        const bool in_focus = x >= 40 && x < 44 && y >= 20 && y < 24;
+        return x == 17 && y == 31 ? 71.3 : in_focus ? 0 : NAN;
+    });
+    LampBehindBoards scene(ldi);
+    ASSERT_EQ(scene.lamp.size(), 3u);
+    for (const bool together : {false, true}) {
+        const std::vector<float> lit = scene.lit(together);
+        EXPECT_EQ(lights(lit, 63, 35), last_does_not) << together;
+        EXPECT_EQ(lights(lit, 60, 35), all_light) << together;
+        EXPECT_EQ(lights(lit, 41, 21), none_lights) << together;
+    }
+}
+
+// A board of the CoC -80, in cells of four pixels from pixel 24 to 40: its shadow is half as large, at half the
+// distance from the lamps.
+TEST(HighlightShadows, OfCoarseCastersFallOnGroupsToo) {
+    const ThinLens in_cells{.radius = lens.radius, .focal_px = lens.focal_px / 4, .focus = lens.focus};
+    const Ldi cells = make_ldi(windows_of_size(size / 4, size / 4), rgba_channels(), [&](int x, int y) {
+        const bool board = x >= 6 && x < 10 && y >= 6 && y < 10;
+        return std::vector<Sample>{{depth_of(in_cells, board ? -20 : 22.5), {0, 0, 0, 1}}};
+    });
+    const BlockedLdi blocked(cells, in_cells);
+    const BlockFootprints footprints(blocked.ldi, blocked.samples);
+    const CoarseCasters coarse{{{blocked.samples, footprints, 4}}, GatherTuning::shadow_far_cells};
+    const Ldi ldi = three_lamps([](int, int) { return NAN; });
+    LampBehindBoards scene(ldi);
+    for (const bool together : {false, true}) {
+        const std::vector<float> lit = scene.lit(together, &coarse);
+        EXPECT_EQ(lights(lit, 20, 31), none_lights) << together;
+        EXPECT_EQ(lights(lit, 15, 31), all_light) << together;
+        EXPECT_EQ(lights(lit, 27, 31), all_light) << together;
+    }
 }
 
 TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {

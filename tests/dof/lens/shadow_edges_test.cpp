@@ -1,6 +1,7 @@
 // Shadows of a square pixel, by hand; and shadows of a group, computed for its middle lamp, compared with those of each
 // lamp.
 #include "dof/lens/shadow_search.h"
+#include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -66,6 +67,38 @@ TEST(ShadowEdges, WhatReachesAMemberMayReachItsGroup) {
     }
     EXPECT_GT(reached, 100);
     EXPECT_GT(left_out, 1000);
+}
+
+// Two things at x = 78.5, in one block. A lamp of CoC 9 at 0 lights pixel 7 through lens points up to 8 / 9; through
+// these it is seen behind things of CoC -80 up to x = (9 + 80) * 8 / 9 = 79. For a lamp of CoC 10 these are x = 72. The
+// field is bent: the second thing, too, is nearer than the lamps, but has a larger CoC.
+TEST(ShadowSearch, FindsForAGroupWhatMayShadowAMember) {
+    const Windows windows = windows_of_size(80, 8);
+    const Ldi ldi = make_ldi(windows, rgba_channels(), [](int x, int y) {
+        return x == 78 && y == 3 ? std::vector<Sample>{{1, {0, 0, 0, 1}}, {2, {0, 0, 0, 1}}}
+                                 : std::vector<Sample>{};
+    });
+    const BlockedSamples samples =
+        make_blocks(windows, [](const Position &at, std::vector<PlacedSample> &placed) {
+            if (at != Position(78, 3)) return;
+            placed.push_back({78.5f, 3.5f, -80, 100, 1, 0});
+            placed.push_back({78.5f, 3.5f, 12, 50, 1, 1});
+        });
+    const BlockFootprints footprints(ldi, samples);
+    ShadowSearch search({{samples, footprints}});
+    search.begin({1, 1}, nullptr);
+    const auto found = [&](double coc, double cocs) {
+        ShadowedLamp lamp = lamp_at({0, 3.5}, coc);
+        lamp.screen.box = {{7, 3}, {7, 3}};
+        lamp.far = INFINITY;
+        lamp.cocs = cocs;
+        int blocks = 0;
+        search.for_each(lamp, [&](const CastingBlock &) { return ++blocks > 0; });
+        return blocks;
+    };
+    EXPECT_EQ(found(9, 0), 1);
+    EXPECT_EQ(found(10, 0), 0);
+    EXPECT_EQ(found(10, 1), 1);
 }
 
 } // namespace

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -190,6 +193,74 @@ TEST(Images, TwoViewsAreEnoughAndTheirOrderDoesNotMatter) {
     EXPECT_EQ(ldi.image_z, other.image_z);
     EXPECT_EQ(ldi.values, other.values);
     EXPECT_GT(shares(warped({mirror(6)[0], mirror(6)[1]}), 6, 0.01).right, 0.9);
+}
+
+// The disparities of the images that are found if all blocks are searched; NaN: none.
+std::vector<float> image_depths(const std::vector<View> &views) {
+    std::vector<std::unique_ptr<ViewSamples>> samples;
+    std::vector<std::unique_ptr<ViewMapping>> mappings;
+    std::vector<MatchedView> matched;
+    for (const View &view : views) {
+        samples.push_back(std::make_unique<ViewSamples>(view, view.image.channels));
+        mappings.push_back(std::make_unique<ViewMapping>(view.position, focal_px, window));
+        matched.emplace_back(PlacedView{samples.back().get(), mappings.back().get()}, scale);
+    }
+    std::vector<std::size_t> blocks(Tiles(window.data, image_block).count());
+    std::iota(blocks.begin(), blocks.end(), std::size_t(0));
+    const Grid grid = window.grid();
+    std::vector<float> depths(grid.size(), NAN);
+    find_image_depths(ImageSweep(matched, 1), window.data, blocks,
+                      [&](const Imath::Box2i &block, const ImageDepthAt &depth_at) {
+                          const Grid pixels(block);
+                          for (std::size_t n = 0; n < pixels.size(); ++n)
+                              depths[grid.index(pixels.pixel(n))] = depth_at(pixels.pixel(n));
+                      });
+    return depths;
+}
+
+// A wall that covers `covers` and shows images at the disparities image(x, y).
+std::vector<float> image_depths_on_wall(const std::function<double(double x, double y)> &image,
+                                        const std::function<bool(double x, double y)> &covers) {
+    return image_depths(five_views([&](const Imath::V2d &u) {
+        TwoPlanes scene{.focal_px = focal_px};
+        scene.front_z = wall_z;
+        scene.front_covers = covers;
+        scene.front_red = [&](double x, double y) {
+            const double moves = scale / wall_z - image(x, y);
+            return waves(x - moves * u.x, y + moves * u.y);
+        };
+        return scene.view(window, radius * u);
+    }));
+}
+bool everywhere(double, double) { return true; }
+std::size_t at(int x, int y) { return window.grid().index(Imath::V2i(x, y)); }
+
+// The square of seven pixels fills less than a third of what lies around its middle.
+TEST(Images, AFewPixelsOfAnotherDepthAreNotOne) {
+    const auto image = [](double x, double y) {
+        return std::abs(x - 47.5) < 3.5 && std::abs(y - 35.5) < 3.5 ? 9.0 : 4.0;
+    };
+    EXPECT_NEAR(image_depths_on_wall(image, everywhere)[at(47, 35)], 4, 0.4);
+}
+
+// From four pixels on beside the border of both, patches show one image alone.
+TEST(Images, SideBySideKeepTheirDepths) {
+    const std::vector<float> depths =
+        image_depths_on_wall([](double x, double) { return x < 48 ? 4.0 : 9.0; }, everywhere);
+    for (int y = 24; y < 48; ++y) {
+        EXPECT_NEAR(depths[at(43, y)], 4, 0.1) << y;
+        EXPECT_NEAR(depths[at(52, y)], 9, 0.1) << y;
+    }
+}
+
+// An arm of a mirror, one pixel high, begins at x = 48. The image goes on along it in two steps: to the eight pixels
+// beside the mirror, then to two more (pixels are continued in pairs), which are near all of these eight.
+TEST(Images, GoOnFromEightPixelsOrMore) {
+    const std::vector<float> depths =
+        image_depths_on_wall([](double, double) { return 4.0; },
+                             [](double x, double y) { return x < 48 || std::abs(y - 36.5) < 0.5; });
+    EXPECT_NEAR(depths[at(57, 36)], 4, 0.1);
+    EXPECT_TRUE(std::isnan(depths[at(58, 36)]));
 }
 
 } // namespace
