@@ -8,6 +8,7 @@
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
+#include "io/files/file_stream.h"
 #include "options/finish_options.h"
 
 #include <CLI/CLI.hpp>
@@ -65,7 +66,7 @@ std::vector<double> stated_samples(const FinishCommand &options, const ToolConte
     std::vector<double> samples;
     for (const std::string &path : options.renders)
         if (const auto stated =
-                path == "-" ? std::nullopt : render_samples(read_flat_header(place_of(path).first)))
+                is_read_once(path) ? std::nullopt : render_samples(read_flat_header(place_of(path).first)))
             samples.push_back(*stated);
     if (samples.size() == options.renders.size()) return samples;
     tool.say("the renders do not say how many samples they have: all count the same");

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sparselens {
@@ -26,7 +27,16 @@ struct OpenedPackedView : OpenedFile {
     PackedView view; // at the origin
 };
 
+// Where no coverage is known, all is covered: edges of surfaces can then be unmixed as in a view that says so.
+void add_full_coverage(Image &image) {
+    const std::array<std::size_t, 3> rgb = find_rgb(image.channels);
+    if (!all_found(rgb) || find_channel(image.channels, "A") != npos) return;
+    image.channels.push_back({"A", image.channels[rgb[0]].type});
+    image.values.resize(image.channels.size() * image.windows.pixels(), 1);
+}
+
 OpenedPackedView packed(OpenedView opened) {
+    add_full_coverage(opened.view.image);
     return {std::move(static_cast<OpenedFile &>(opened)), PackedView(std::move(opened.view))};
 }
 

@@ -88,9 +88,13 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
 
 } // namespace
 
-bool same_samples(const Ldi &a, const Ldi &b) {
-    return a.windows == b.windows && a.begin == b.begin && a.z == b.z && a.z_back == b.z_back &&
-           a.dx == b.dx && a.dy == b.dy && a.image_z == b.image_z && a.solid == b.solid;
+bool same_samples(const Ldi &layer, const Ldi &ldi) {
+    const auto same = [&](std::vector<float> Ldi::*array) {
+        return (layer.*array).empty() || layer.*array == ldi.*array;
+    };
+    return layer.windows == ldi.windows && layer.begin == ldi.begin && layer.z == ldi.z &&
+           same(&Ldi::z_back) && same(&Ldi::dx) && same(&Ldi::dy) && same(&Ldi::image_z) &&
+           same(&Ldi::solid);
 }
 
 void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {

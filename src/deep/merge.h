@@ -10,8 +10,8 @@ namespace sparselens {
 
 // Merges several layered pictures of one camera: each is an object, or a layer of the same samples.
 
-// Whether both LDIs have samples at the same positions, in the same order.
-bool same_samples(const Ldi &a, const Ldi &b);
+// Whether `layer` has the samples of `ldi`, in the same order: where they lie beside Z, a layer need not say again.
+bool same_samples(const Ldi &layer, const Ldi &ldi);
 
 // Adds the channels of `layer`, which has the same samples as `ldi`. If a channel's name is taken, the channel becomes
 // one of the layer `name`; if that name is taken too, the first channel is kept.

@@ -143,7 +143,7 @@ private:
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose) {
-    if (!choose || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path) ||
+    if (!choose || options.depth.meaning != DepthMeaning::planar || is_read_once(path) ||
         is_photograph(path, options.depth.picture))
         return open_ldi(path, options);
     RowsReader reader(path, options, choose);

@@ -564,9 +564,6 @@ LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "g
 LAMPS = "what stands out of its surroundings, empty pixels included, is a lamp with an exact disc; all else, a pattern of points"
 SLOW = {"match"}  # doors
 KNOWN = {  # faults that are not mended yet: (door, change): why
-    **{(door, "no-alpha"): "views without A keep mixed silhouettes" for door in ("warp", "warp-denoised", "python")},
-    **{(door, "parts"): "layers without ldi.* are left out" for door in ("cluster", "gather-ldi", "gather-selective")},
-    **{(door, "fifo"): "opened twice" for door in ("gather-selective", "finish", "finish-denoised")},
     ("warp-denoised", "light"): "two pixels in 1536 have one sample more",
     **{(door, change): "dof-finish looks at the data window" for door in ("finish", "finish-denoised", "finish-ask") for change in ("cut", "overscan")},
     ("gather-selective", "cut"): "0.8 % at edges that lie at the data window",

@@ -21,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <unordered_set>
 
@@ -278,8 +277,7 @@ Imf::Header read_flat_header(const std::string &path, const PictureChoice &choic
 }
 
 bool is_deep_alone(const std::string &path) {
-    std::error_code ignored;
-    if (is_standard_stream(path) || !std::filesystem::is_regular_file(path, ignored)) return false;
+    if (is_read_once(path)) return false;
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);

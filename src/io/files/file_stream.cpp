@@ -102,6 +102,8 @@ std::string find_installed(const std::string &relative) {
 
 bool is_standard_stream(const std::string &path) { return path == "-"; }
 
+bool is_read_once(const std::string &path) { return path == "-" || !is_regular_or_new(path); }
+
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
 
 void fail_of_system(const std::string &path, const std::string &what) {

@@ -91,6 +91,9 @@ std::string find_installed(const std::string &relative);
 // Whether `path` stands for standard input or output.
 bool is_standard_stream(const std::string &path);
 
+// Whether the file can be read only once: standard input, a pipe or a device.
+bool is_read_once(const std::string &path);
+
 // The name of the file in messages.
 std::string display_name(const std::string &path);
 
