@@ -93,8 +93,7 @@ bool same_samples(const Ldi &layer, const Ldi &ldi) {
         return (layer.*array).empty() || layer.*array == ldi.*array;
     };
     return layer.windows == ldi.windows && layer.begin == ldi.begin && layer.z == ldi.z &&
-           same(&Ldi::z_back) && same(&Ldi::dx) && same(&Ldi::dy) && same(&Ldi::image_z) &&
-           same(&Ldi::solid);
+           same(&Ldi::z_back) && same(&Ldi::dx) && same(&Ldi::dy) && same(&Ldi::image_z) && same(&Ldi::solid);
 }
 
 void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
