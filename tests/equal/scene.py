@@ -30,7 +30,7 @@ def pattern(x, y, seed):
 
 
 def seen(x, y, shift):
-    """Of each thing, moved by shift(depth): depth, id, and at each of these places the coverage and its premultiplied colour."""
+    """Returns for each thing, moved by shift(depth): depth, id, and at each place its coverage and premultiplied colour."""
     for z, number, alpha, colour, outline in THINGS:
         dx, dy = shift(z)
         covered = alpha * outline(x - dx, y - dy)

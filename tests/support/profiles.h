@@ -19,7 +19,7 @@ inline std::string fixed(double value) {
 }
 
 using Columns = std::array<std::array<double, 3>, 3>;
-// Of Display P3 and sRGB, beside D50, as Apple and HP publish them.
+// The primaries of Display P3 and sRGB, beside D50, as Apple and HP publish them.
 inline constexpr Columns p3{
     {{0.51512, 0.2412, -0.00105}, {0.29198, 0.69225, 0.04189}, {0.1571, 0.06657, 0.78407}}};
 inline constexpr Columns srgb{

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-// Of tiffutils.h, which needs the headers of libtiff.
+// Declared in tiffutils.h, which needs the headers of libtiff.
 OIIO_NAMESPACE_BEGIN
 OIIO_API bool decode_exif(string_view exif, ImageSpec &spec);
 OIIO_API void encode_exif(const ImageSpec &spec, std::vector<char> &blob, endian order);
