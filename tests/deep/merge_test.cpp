@@ -75,6 +75,7 @@ TEST(DeepMerge, LayersHaveTheSameSamples) {
     beauty.channels.push_back({"diffuse.A"});
     beauty.values.push_back({5, 5});
     EXPECT_TRUE(same_samples(beauty, diffuse));
+    diffuse.dx = diffuse.dy = {};
     beauty.dx = beauty.dy = {0.25f, 0.125f};
     EXPECT_TRUE(same_samples(diffuse, beauty));
     EXPECT_FALSE(same_samples(beauty, diffuse));

@@ -522,7 +522,7 @@ CHANGES = {
     "order": Change(backwards, needs="a file"),
     "light": Change(pictures(scaled(is_light, 2)), scaled(is_light, 0.5), figures={"max": 0.5, "p99": 0.5}),
     "scaled": Change(larger(4, {"lens-radius": 4, "focus-distance": 4}), scaled(is_distance, 0.25), figures={"focus_distance": 0.25, "lens_radius": 0.25}, needs="a depth"),
-    "units": Change(larger(1000, UNITS), scaled(is_distance, 0.001), 1e-4, by_fstop, needs="a depth"),
+    "units": Change(larger(1000, UNITS), scaled(is_distance, 0.001), 1e-4, by_fstop, needs="a depth", figures={"focus_distance": 0.001, "lens_radius": 0.001}),
     "ids": Change(pictures(renumbered), renumbered_back, needs="an id"),
     "mirrored": Change(pictures(mirrored), mirrored, first=pictures(without_ids)),
     "transposed": Change(in_turn(pictures(transposed), upright), transposed, first=pictures(without_ids)),
