@@ -64,8 +64,8 @@ std::uint32_t threads_on(const Device &device) { return device.info().kind == Ki
 // Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little.
 std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
     const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
-                      of_point = cells * sizeof(std::uint64_t) + lens_kernel::chunk * sizeof(std::uint32_t),
-                      others = threads_on(device) * 3 * sizeof(std::uint32_t) + 64;
+                      of_point = cells * sizeof(std::uint32_t) + lens_kernel::chunk * sizeof(std::uint32_t),
+                      others = threads_on(device) * 4 * sizeof(std::uint32_t) + 64;
     return std::uint32_t(
         std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
 }

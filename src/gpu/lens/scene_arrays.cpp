@@ -11,7 +11,7 @@ namespace {
 // Returns the number of samples or facets of all blocks, which are stored one block after the other.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
-// Places samples from `first` on. `hiding`: for the upper halves of keys.
+// Places samples from `first` on.
 void place(SceneArrays &arrays, const BlockedSamples &from, std::size_t first, std::uint32_t hiding) {
     parallel_ranges(count_of(from), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -40,8 +40,7 @@ void colour(SceneArrays &arrays, const BlockedSamples &from, const SampleColours
 
 void place_facets(SceneArrays &arrays, const PlacedFacets &from) {
     arrays.facets.resize(3 * count_of(from));
-    for (std::size_t i = 0; i < arrays.facets.size(); ++i)
-        arrays.facets[i] = kernels::sample_of(from.key[i % 3][i / 3]);
+    for (std::size_t i = 0; i < arrays.facets.size(); ++i) arrays.facets[i] = from.sample[i % 3][i / 3];
     for (const FacetBlock &b : from.blocks)
         arrays.blocks.push_back({b.begin, b.end, b.x_min, b.x_max, b.y_min, b.y_max, b.coc_min, b.coc_max});
 }
