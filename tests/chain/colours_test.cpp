@@ -67,7 +67,7 @@ protected:
                 ASSERT_NEAR(found.plane(k)[i], picture.plane(k)[i], by) << k << ' ' << i;
     }
     void grey() {
-        for (std::size_t k : {1, 2}) std::ranges::copy(picture.plane(0), picture.plane(k).begin());
+        for (const std::size_t k : {1u, 2u}) std::ranges::copy(picture.plane(0), picture.plane(k).begin());
     }
 };
 
