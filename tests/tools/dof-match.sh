@@ -34,6 +34,8 @@ by_region=("$match" ldi.exr plate.exr --json --fit focus --fstop 0.073 --region 
 exits 0 "${by_region[@]}" -o region.json
 holds focus_distance 2.8 3.25
 holds fstop 0.073 0.073
+exits 0 "${by_region[@]}" -o region.json --progress plain
+grep -qx 'dof-match: 100%' stderr || fail "dof-match --progress: $(cat stderr)"
 
 # Plates come in formats of the screen, too: they are decoded by the file rules, and have the lens of the EXR.
 formats=(jpg)

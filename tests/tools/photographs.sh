@@ -77,7 +77,7 @@ for file in photo.jpg depth8.png; do head -c $(($(stat -c %s $file) / 2)) $file 
 wrong 1 'half.jpg: cannot read: a part of the file is missing' --depth-file half.jpg --blur 6 "${sharp[@]}"
 wrong 1 'half.png: cannot read' --depth-file half.png --blur 6 "${sharp[@]}"
 [ "$(wc -l <stderr)" = 1 ] || fail "libpng adds lines of its own: $(cat stderr)"
-printf '\x93NUMPY' >depth.npy
+printf '\x93NUMPY\1\0v\0' >depth.npy
 wrong 1 'depth.npy: is a NumPy array: save it as a 16-bit PNG' --depth-file depth.npy --blur 6 "${sharp[@]}"
 wrong 1 'none.png: cannot read' --depth-file none.png --blur 6 "${sharp[@]}"
 wrong 2 'photo.jpg: is a picture without depth: give its depth by --depth-file' --blur 6 "${sharp[@]}"
