@@ -168,7 +168,7 @@ void to_space_of(const Notify &notify, const ColourOptions &options, const Named
 
 namespace {
 
-// What a picture made from a photograph keeps of its file, unless another encoding is asked for.
+// A picture made from a photograph keeps these of its file, unless another encoding is asked for.
 std::optional<ShownExtras> kept_extras(const ColourOptions &options, const Imf::Header &metadata) {
     if (!(options.config + options.output_space + options.display + options.view).empty()) return {};
     return extras_of(metadata);

@@ -22,8 +22,8 @@ bool is_photograph(const std::string &path, const PictureChoice &choice);
 // naming the file, if it cannot be read, there is no depth, it has another size, or it has colours.
 LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
 
-// What the file of a photograph of integers holds beside its colours, from attributes of its header that EXR files do not
-// get. Empty for all other pictures.
+// The parts of a photograph of integers beside its colours, from attributes of its header that EXR files do not get.
+// Empty for all other pictures.
 std::optional<ShownExtras> extras_of(const Imf::Header &header);
 Imf::Header without_extras(const Imf::Header &header);
 

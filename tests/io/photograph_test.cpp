@@ -131,7 +131,7 @@ TEST_F(PhotographFiles, DepthThatWasNotTurnedIsTurned) {
     EXPECT_NE(read.warnings[0].find("the depth is turned, too"), std::string::npos);
 }
 
-// What JPEG does to grey is a rounding; more is a colour map.
+// JPEG rounds greys. Larger differences between the channels are those of a colour map.
 TEST_F(PhotographFiles, DepthMustBeGrey) {
     const std::string picture = shown("picture.png");
     const auto of_colours = [&](float off) {

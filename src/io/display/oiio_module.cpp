@@ -38,7 +38,7 @@ bool reads(const char *extension) {
 
 OIIO::TypeDesc bytes_type(const OiioBytes &of) { return {OIIO::TypeDesc::UINT8, int(of.size)}; }
 
-// What the file says beside its pixels.
+// Writes the Exif that the picture comes with, upright.
 void add_exif(OIIO::ImageSpec &spec, const OiioBytes &exif) {
     if (exif.size == 0) return;
     OIIO::decode_exif({static_cast<const char *>(exif.bytes), exif.size}, spec);

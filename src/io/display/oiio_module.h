@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// What a file may hold beside its pixels; those that a module returns are valid until the thread calls again.
+// Bytes that a file holds beside its pixels. A module's are valid until the thread calls again.
 struct OiioBytes {
     const void *bytes;
     std::size_t size; // 0: none
@@ -45,7 +45,7 @@ struct OiioFile {
 struct OiioModule {
     enum class Support { none, opaque, alpha };
 
-    // What the format with this extension (png, without the dot) supports when it is written.
+    // Tells what can be written in the format with this extension (png, without the dot).
     Support (*support)(const char *extension);
     // Whether it is the extension of a picture that can be read, other than EXR.
     bool (*reads)(const char *extension);

@@ -157,7 +157,7 @@ std::string shown_picture(const std::string &name, const std::string &format, co
                                      bytes_of(extras.profile), bytes_of(extras.exif), append, &bytes});
     if (failed) throw Error(name + ": cannot write: " + failed);
     if (!bytes.empty()) return bytes;
-    // What writes to the file may not see that it is cut off. Encoded worse than not at all, it is twice as large.
+    // The library may not notice that its file is cut off. A picture may take up to twice its bytes.
     const std::size_t largest = 65536 + 4 * channels.size() * std::size_t(image.windows.display_width()) *
                                             std::size_t(image.windows.display_height());
     if (!file.can_hold(largest)) fail_of_system(name, "cannot write");

@@ -19,7 +19,7 @@ bool holds_linear_light(const std::string &path);
 // was below 1 anywhere.
 bool drop_unwritten_coverage(const std::string &path, Image &image);
 
-// What a file holds beside its colours.
+// The parts of a file beside its colours.
 struct ShownExtras {
     int bits = 8;                        // of each value: 8 or 16; 32: floating-point numbers
     std::string profile = {}, exif = {}; // ICC, for R, G and B; Exif, without its orientation
