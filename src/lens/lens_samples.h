@@ -20,6 +20,9 @@ struct LensSample {
     float weight;           // > 0
     // Factors on the weight for R, G and B, and for light from behind focus or in front (LensPoint).
     ColourFactors rgb = no_factors, behind = no_factors, in_front = no_factors;
+
+    bool has_rims() const { return behind != no_factors || in_front != no_factors; }
+    bool counts_alike() const { return rgb == no_factors && !has_rims(); }
 };
 
 // The positions in the pixel of a set of n points, [0, 1); the first is the middle.

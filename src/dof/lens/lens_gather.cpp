@@ -230,8 +230,7 @@ bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32
 
 void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done) {
-    const bool rims = std::ranges::any_of(
-        tile.lens, [](const LensSample &p) { return p.behind != no_factors || p.in_front != no_factors; });
+    const bool rims = std::ranges::any_of(tile.lens, &LensSample::has_rims);
     const bool coloured =
         std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.rgb != no_factors; });
     if (rims && (reaches_in_front(scene.samples, tile.samples) ||

@@ -74,10 +74,11 @@ LensTiles tiles_of(const Windows &windows) {
 }
 
 // The same points in the middle of the lens. Where all samples are blurred by more than the picture is wide, points
-// farther out see past it; if too few see anything, a wider lens blurs less.
+// farther out see past it; if too few see anything, a wider lens blurs less. Points that count by where they lie stay.
 std::vector<LensSample> narrowed(std::span<const LensSample> points, float share) {
     std::vector<LensSample> moved(points.begin(), points.end());
-    for (LensSample &point : moved) point.x *= share, point.y *= share;
+    for (LensSample &point : moved)
+        if (point.counts_alike()) point.x *= share, point.y *= share;
     return moved;
 }
 
