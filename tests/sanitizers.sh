@@ -18,12 +18,22 @@ export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/t
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions:print_suppressions=0"
 export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # sanitizers need more time and memory
 
-# These tests take half of the total time.
-slowest='GatherRows.BlurFarWiderThanTheCellsAroundIsTheSame
+# These tests take more than a second each without sanitizers, and two thirds of the total time.
+slowest='Cells.ThePictureIsThatOfManyLensPointsWhateverTheLensAndTheSamplesAre
 FrameExtension.ElementsThatTheFrameCutsOffStayOpaque
+FrameExtension.TheSkyBesideABarThatLeavesIsNoDarkerThere
+GatherRows.BlurFarWiderThanTheCellsAroundIsTheSame
+Invariants.AMirroredPictureIsMirrored
 Invariants.FourTimesTheLensPointsAreCloserToTheTruth
+LampLight.IsKeptBeforeA*
+LensGather.SubpixelsLookFromNearTheirMiddle
+LensGatherOfAPoint.BehindAPostShinesByItsShareInSmallStepsOfFocusAndAperture
+LensLooks.ChangeThePicture
 LensLooks.GiveTheSameBitsOnAnyNumberOfThreads
-Cells.ALampKeepsItsDisc'
+LensSearch.finds_the_focus_and_the_lens_of_a_graded_plate
+LensSearch.noise_widens_the_spread
+LensSearch.tells_softness_of_the_whole_from_the_lens
+ShapeSearch.TellsS*'
 
 targets=() tests=(-E '^(scripts|packaging|bench)\.')
 case ${1-} in
