@@ -559,10 +559,10 @@ NEVER = {
     "transposed": {"gather-photo-exr": "its depth is no EXR"},
     "light": {"finish-ask": "rays are asked for what a display shows"},
     "stdin": {"gather-photo": "says that it needs a file", "python": "reads no stream", "pipe": "its requests come there"},
-    "fifo": {"pipe": "refuses what is no file", "photo": "OpenImageIO needs files"},
+    "fifo": {"pipe": "refuses what is no file", "photo": "says that it needs a file"},
 }
 LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "gather-photo-exr", "pipe", "python", "match"
-LAMPS = "what stands out of its surroundings, empty pixels included, is a lamp with an exact disc; all else, a pattern of points"
+LAMPS = "lamps, whose discs are exact, are told in cells of 32 pixels from the corner of the data window; all else is a pattern of points"
 SLOW = {"match"}  # doors
 KNOWN = {  # faults that are not mended yet: (door, change): why
     ("warp-denoised", "light"): "two pixels in 1536 have one sample more",

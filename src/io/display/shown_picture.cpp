@@ -193,6 +193,7 @@ void settle_alpha(Image &image, bool without) {
 } // namespace
 
 ShownFile read_shown_picture(const std::string &path, bool without_alpha) {
+    if (is_read_once(path)) throw Error(path + ": cannot read: not a regular file: store the picture in one");
     OiioFile said{};
     const auto read = [&](float *to) {
         if (const char *failed = oiio_module().read(path.c_str(), said, to))

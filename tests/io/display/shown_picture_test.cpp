@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,15 @@ TEST(ShownPicture, WhatDoesNotFitReplacesNothing) {
     }
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(scratch.entries(), 9u);
+}
+
+TEST(ShownPicture, IsReadFromAFile) {
+    const ScratchFolder scratch;
+    const std::string pipe = scratch.file("a.png");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const std::string &path : {pipe, scratch.file("")})
+        EXPECT_EQ(what_of<Error>([&] { read_shown_picture(path); }),
+                  path + ": cannot read: not a regular file: store the picture in one");
 }
 
 TEST(ShownPicture, MayBeTooLargeForItsFormat) {
