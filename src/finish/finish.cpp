@@ -21,17 +21,15 @@ Halves regressed(const LayerToFinish &layer, const Halves &rays, const Values &w
     return predicted;
 }
 
-// Keeps pixels on which picture and renders agree, such as coverage of 1. Few rays may miss a small lamp in a pixel, so
-// the pixels around it must agree, too. Nothing around an object stays nothing, however far windows reach.
+// Keeps pixels on which picture and renders agree: nothing around an object stays nothing, however far windows reach,
+// and coverage of 1 stays 1.
 void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
-    Values agreed(layer.grid.size(), 1.0f);
-    for (std::size_t i = 0; i < agreed.size(); ++i)
-        for (std::size_t c = 0; c < layer.gathered.size(); ++c)
-            if (layer.rays[0][c][i] != layer.gathered[c][i] || layer.rays[1][c][i] != layer.gathered[c][i])
-                agreed[i] = 0;
-    box_mean(agreed, layer.grid, FinishTuning::agreed_radius);
     for (std::size_t i = 0; i < layer.grid.size(); ++i) {
-        if (agreed[i] < 1 && (layer.nothing.empty() || !layer.nothing[i])) continue;
+        bool agreed = true;
+        for (std::size_t c = 0; c < layer.gathered.size(); ++c)
+            agreed &=
+                layer.rays[0][c][i] == layer.gathered[c][i] && layer.rays[1][c][i] == layer.gathered[c][i];
+        if (!agreed) continue;
         for (Colours *colours : {&finished.picture, &finished.of_one[0], &finished.of_one[1]})
             for (std::size_t c = 0; c < colours->size(); ++c) (*colours)[c][i] = layer.gathered[c][i];
         finished.kept[i] = 1;
@@ -49,17 +47,22 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
         blend_in(pictures, candidate, evidence, finished.kept);
         progress.advance();
     };
-    progress.start("finish", 2 * layer.given.size() + FinishTuning::regression_windows.size() + 3);
+    progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
     for (const Halves &given : layer.given) offer(given);
+    // Where the gathered picture is wrong nearly everywhere, single classes prove too little: all cells together prove
+    // that the picture is not worse than one that is given, before and after the other candidates.
+    const auto offer_given = [&] {
+        for (const Halves &given : layer.given)
+            blend_in(pictures, given, evidence, finished.kept, Among::whole_picture);
+    };
+    offer_given();
     const Halves &rays = layer.averaged[0].empty() ? layer.rays : layer.averaged;
     const Values weights = tone_weights(layer.gathered);
     for (const FinishTuning::Window &window : FinishTuning::regression_windows)
         offer(regressed(layer, rays, weights, window));
     offer(rays);
     offer(means_of_similar(rays, pictures[2], layer.grid));
-    // Once more, where the others made it worse.
-    offer(rays);
-    for (const Halves &given : layer.given) offer(given);
+    offer_given();
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
     keep_agreed(layer, finished);

@@ -24,8 +24,6 @@ struct LayerToFinish {
     Halves rays;
     RayCounts samples = {};
     std::vector<Halves> given = {}; // for each render: its denoised version, or the same picture twice
-    std::vector<bool> nothing =
-        {};               // pixels without light and coverage in all pictures, which stay so; or empty
     Halves averaged = {}; // the rays with those of frames around (frames_around.h), for candidates; or empty
 };
 

@@ -51,13 +51,13 @@ TEST(Trust, RaysDoNotConfirmThemselves) {
     EXPECT_GT(mean(believed(layer, layer.rays).kept), 0.99);
 }
 
-// The last channel of a black picture after it was offered a candidate. All are the same in all pixels, and there are many:
-// the picture is what fits both renders best.
+// The last channel of a black picture after it was offered a candidate. All are the same in all pixels, and so small that
+// all cells are of one class: the picture is what fits both renders best.
 constexpr float unit = 1.1e-6f;
 using Colour = std::array<float, 3>;
 float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2> &rays,
               const std::array<double, 2> &samples) {
-    const ArrayGrid even(128, 64);
+    const ArrayGrid even(64, 32);
     Halves offered, halves;
     for (std::size_t k = 0; k < 2; ++k)
         for (const float value : candidate[k]) {
@@ -68,7 +68,7 @@ float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2>
     Trio pictures{black, black, black};
     Values kept(even.size(), 1.0f);
     blend_in(pictures, offered, {halves, samples, even}, kept);
-    return pictures[2][2][even.index(Position(64, 32))] / unit;
+    return pictures[2][2][even.index(Position(32, 16))] / unit;
 }
 
 TEST(Trust, RendersTestByTheirSamples) {
@@ -153,9 +153,7 @@ TEST(Trust, ManySamplesProveMore) {
     };
     const double untold = decibels_of_quarter(finished(layer).picture);
     layer.samples = counts;
-    const double told = decibels_of_quarter(finished(layer).picture);
-    EXPECT_GT(told, untold + 2);
-    EXPECT_GT(told, 46);
+    EXPECT_GT(decibels_of_quarter(finished(layer).picture), untold + 4);
 }
 
 TEST(Trust, ThreadsDoNotMatter) {
