@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import tempfile
-import time
 
 
 class ToolError(RuntimeError):
@@ -47,7 +46,7 @@ class Chain:
     def __init__(self, commands):
         self.left = list(commands)
         self.process = self.said = None
-        self.warnings, self.began, self.seconds = [], 0, 0  # of the last one
+        self.warnings = []
 
     def poll(self):
         """Returns whether all is done. Raises ToolError if a tool has
@@ -63,7 +62,7 @@ class Chain:
         if not self.left:
             return False
         command = self.left.pop(0)
-        self.said, self.began = tempfile.TemporaryFile(), time.monotonic()
+        self.said = tempfile.TemporaryFile()
         try:
             self.process = subprocess.Popen(
                 command + ["--progress", "plain"], stdin=subprocess.DEVNULL,
@@ -76,7 +75,6 @@ class Chain:
 
     def end(self):
         process, self.process = self.process, None
-        self.seconds = time.monotonic() - self.began
         with self.said as said:
             said.seek(0)
             lines = [line for line
