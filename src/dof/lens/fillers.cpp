@@ -46,32 +46,43 @@ class FillerSearch {
 public:
     FillerSearch(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known)
         : ldi_(ldi), lens_(lens), alpha_(ldi.alpha()), rgb_(find_rgb(ldi.channels)),
-          width_(std::size_t(ldi.windows.width())), grounds_(ldi.windows.pixels()),
-          distances_(grounds_.size()) {
+          width_(std::size_t(ldi.windows.width())), grounds_(ldi.windows.pixels()), nearest_(grounds_.size()),
+          farthest_(grounds_.size()) {
         parallel_ranges(grounds_.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t pixel = begin; pixel < end; ++pixel)
                 grounds_[pixel] = ground_of(pixel, known.has(ldi.windows, pixel));
         });
         for (std::size_t k = 0; k < directions; ++k) continue_grounds(k);
     }
-    // The filler of a pixel, if it has one.
-    std::optional<Filler> at(std::size_t pixel) const {
-        std::array<Side, directions> all;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < directions; ++k)
-            if (const int n = distances_[pixel][k]; n > 0) {
-                const std::size_t end = pixel - std::size_t(n) * step(k);
-                all[count++] = {grounds_[end], is_mixed(end, k) ? end - step(k) : end, n};
-            }
-        if (count == 0) return {};
-        const std::span<const Side> found = std::span(all).first(count);
-        const Side &nearest = *std::ranges::min_element(found, {}, &Side::order);
-        if (is_seen(pixel, nearest.ground)) return {};
-        return mean_of(pixel, nearest, found);
+    // Adds the fillers of a pixel: of the grounds with the nearest ends, and of the farthest ones behind.
+    void find(std::size_t pixel, std::vector<Filler> &fillers) const {
+        float before = std::numeric_limits<float>::infinity();
+        for (const auto *ends : {&nearest_, &farthest_}) {
+            std::array<Side, directions> all;
+            const std::span<const Side> sides = sides_behind(before, pixel, (*ends)[pixel], all);
+            if (sides.empty()) return;
+            const Side &first = *std::ranges::min_element(sides, {}, &Side::order);
+            if (!is_seen(pixel, first.ground)) fillers.push_back(mean_of(pixel, first, sides));
+            before = first.ground.depth;
+        }
     }
 
 private:
     static constexpr std::size_t directions = 4; // in which grounds go on: right, left, down, up
+    // For each direction: how far a pixel is from the end of a ground that continues there; 0: no ground does.
+    using Distances = std::array<std::uint16_t, directions>;
+
+    // The sides whose ground lies behind a depth, on another surface.
+    std::span<const Side> sides_behind(float depth, std::size_t pixel, const Distances &distances,
+                                       std::array<Side, directions> &sides) const {
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < directions; ++k) {
+            const std::size_t end = pixel - distances[k] * step(k);
+            if (distances[k] > 0 && depth - grounds_[end].depth > one_surface_px)
+                sides[count++] = {grounds_[end], is_mixed(end, k) ? end - step(k) : end, distances[k]};
+        }
+        return std::span(sides).first(count);
+    }
 
     // From pixel to pixel in a direction.
     std::size_t step(std::size_t direction) const {
@@ -109,11 +120,13 @@ private:
         for (int n = 1; n <= std::min(most, int(std::numeric_limits<std::uint16_t>::max())); ++n) {
             pixel += step(direction);
             if (!goes_on(ground, grounds_[pixel], n)) break;
-            std::uint16_t &distance = distances_[pixel][direction];
-            if (distance == 0)
-                distance = std::uint16_t(n);
-            else if (grounds_[pixel - distance * step(direction)].depth <= ground.depth)
-                break;
+            const auto depth = [&](int distance) {
+                return grounds_[pixel - std::size_t(distance) * step(direction)].depth;
+            };
+            std::uint16_t &nearest = nearest_[pixel][direction], &farthest = farthest_[pixel][direction];
+            if (nearest > 0 && depth(nearest) <= ground.depth) break;
+            if (nearest == 0) nearest = std::uint16_t(n);
+            if (farthest == 0 || depth(farthest) > ground.depth) farthest = std::uint16_t(n);
         }
     }
     // Whether the last pixel of a ground shows a part of what hides it: no view unmixed the silhouette.
@@ -163,9 +176,8 @@ private:
     std::array<std::size_t, 3> rgb_;
     std::size_t width_;
     std::vector<Ground> grounds_; // [pixel]
-    // For each pixel and direction: how far the pixel is from the end of the ground that continues there; 0: no ground
-    // does.
-    std::vector<std::array<std::uint16_t, directions>> distances_;
+    // [pixel]: to the nearest end, and to that of the farthest ground.
+    std::vector<Distances> nearest_, farthest_;
 };
 
 } // namespace
@@ -176,7 +188,7 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
     std::vector<std::vector<Filler>> rows(std::size_t(ldi.windows.height()));
     parallel_for(rows.size(), [&](std::size_t row) {
         for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-            if (const auto filler = search.at(pixel)) rows[row].push_back(*filler);
+            search.find(pixel, rows[row]);
     });
     std::vector<std::size_t> begin{0};
     for (const std::vector<Filler> &row : rows) begin.push_back(begin.back() + row.size());
@@ -193,17 +205,17 @@ namespace {
 template <typename IsPlaced>
 BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                       const IsPlaced &is_placed) {
-    std::vector<std::uint32_t> of_pixel(ldi.windows.pixels(), 0); // the number, plus 1
-    for (std::uint32_t f = 0; f < fillers.size(); ++f)
-        if (is_placed(f)) of_pixel[fillers[f].pixel] = f + 1;
+    std::vector<std::uint32_t> first(ldi.windows.pixels(), std::uint32_t(fillers.size())); // of each pixel
+    for (std::size_t f = fillers.size(); f-- > 0;) first[fillers[f].pixel] = std::uint32_t(f);
     return make_blocks(ldi.windows, [&](const Position &at, std::vector<PlacedSample> &found) {
-        const std::uint32_t number = of_pixel[ldi.windows.index(at)];
-        if (number == 0) return;
-        const Filler &filler = fillers[number - 1];
-        const double z = double(filler.z);
-        found.push_back({float(at.column) + 0.5f, float(at.row) + 0.5f, float(circle_of_confusion(lens, z)),
-                         float(disparity(lens, z)), 1,
-                         filler.is_nothing() ? BlockedSamples::background : number - 1});
+        const std::size_t pixel = ldi.windows.index(at);
+        for (std::uint32_t f = first[pixel]; f < fillers.size() && fillers[f].pixel == pixel; ++f) {
+            if (!is_placed(f)) continue;
+            const double z = double(fillers[f].z);
+            found.push_back({float(at.column) + 0.5f, float(at.row) + 0.5f,
+                             float(circle_of_confusion(lens, z)), float(disparity(lens, z)), 1,
+                             fillers[f].is_nothing() ? BlockedSamples::background : f});
+        }
     });
 }
 

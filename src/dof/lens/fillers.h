@@ -8,6 +8,8 @@
 // - It does not continue where the ground is unknown; frame_extension.h says what lies beyond the frame.
 // - If several grounds continue into a pixel, the one with the nearest end fills it; if several ends are as near, the
 //   farthest ground. The filler is the mean of all that are one surface with it, each weighted by 1 / n.
+// - The farthest ground of each direction fills it likewise, if it lies behind that one: where an ear hides a jaw, and
+//   both hide a wall, a lens point sees the wall past both.
 // - A pixel that holds a sample of that surface is not filled, because views looked there: a veil stays as thin as they
 //   saw it.
 // - A filler shows what the last pixel of the ground shows; or what the pixel before that shows, if the last one holds
@@ -46,7 +48,7 @@ struct Filler {
     bool is_nothing() const { return part[0].sample == nothing; }
 };
 
-// Returns at most one filler per pixel, in the order of the pixels. The LDI must have fewer than 2^32 samples and
+// Returns at most two fillers per pixel, the nearer first, in the order of the pixels. The LDI must have fewer than 2^32 samples and
 // pixels.
 LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 

@@ -26,17 +26,19 @@ Ldi row_of(const std::vector<double> &cocs) {
     });
 }
 
-// The value of the filler of each pixel; -1: no filler, -2: a filler of nothing.
-std::vector<float> filled(const Ldi &ldi, const KnownPixels &known) {
+// The value of a filler of each pixel, the first or the last; -1: no filler, -2: a filler of nothing.
+std::vector<float> filled(const Ldi &ldi, const KnownPixels &known, bool last = false) {
     std::vector<float> values(ldi.windows.pixels(), -1);
     for (const Filler &filler : find_fillers(ldi, lens, known)) {
-        float &value = values[filler.pixel] = filler.is_nothing() ? -2 : 0;
+        float &value = values[filler.pixel];
+        if (value != -1 && !last) continue;
+        value = filler.is_nothing() ? -2 : 0;
         for (const Filler::Part &part : filler.parts())
             if (!filler.is_nothing()) value += part.share * ldi.values[0][part.sample];
     }
     return values;
 }
-std::vector<float> filled(const Ldi &ldi) { return filled(ldi, ldi.windows.data); }
+std::vector<float> filled(const Ldi &ldi, bool last = false) { return filled(ldi, ldi.windows.data, last); }
 
 TEST(Fillers, TheFartherSideGoesOnBehindTheNearerOne) {
     // 2.5 pixels nearer: the lens sees three pixels past an edge, four along the row if it runs at 45 degrees.
@@ -49,8 +51,10 @@ TEST(Fillers, TheFartherSideGoesOnBehindTheNearerOne) {
     EXPECT_FLOAT_EQ(between[3], (0 / 3.0f + 4) / (1 + 1 / 3.0f));
     // One surface does not continue behind itself, however steep.
     EXPECT_EQ(filled(row_of({3, 2.6, 2.2, 1.8, 1.4, 1, 0.6})), std::vector<float>(7, -1));
-    // If two continue, the one whose edge is nearer.
+    // If two continue, the one whose edge is nearer, and the farther one behind it.
     EXPECT_EQ(filled(row_of({7, 7, 3, -3, -3})), (std::vector<float>{-1, -1, 1, 2, 2}));
+    EXPECT_EQ(filled(row_of({7, 7, 3, -3, -3}), true), (std::vector<float>{-1, -1, 1, 1, 1}));
+    EXPECT_EQ(filled(row_of({7, 7, 3, -1, -6, -6}), true), (std::vector<float>{-1, -1, 1, 1, 1, 1}));
 }
 
 TEST(Fillers, NothingGoesOnToo) {
@@ -61,6 +65,7 @@ TEST(Fillers, WhereNothingIsKnownNoneGoesOn) {
     const Ldi ldi = row_of({NAN, NAN, NAN, 1.4, -7, -7, NAN, -7, -7, NAN, NAN});
     const Imath::Box2i known({0, 0}, {5, 0});
     EXPECT_EQ(filled(ldi, known), (std::vector<float>{-1, -1, -1, -2, 3, 3, -1, -1, -1, -1, -1}));
+    EXPECT_EQ(filled(ldi, known, true), (std::vector<float>{-1, -1, -1, -2, -2, -2, -1, -1, -1, -1, -1}));
     std::vector<char> unseen(11, 0);
     unseen[2] = 1;
     EXPECT_EQ(filled(ldi, KnownPixels(known, unseen)),
@@ -95,60 +100,63 @@ TEST(Fillers, AVeilThatWasSeenIsNotFilledUp) {
     EXPECT_EQ(filled(picture(3)), (std::vector<float>{-1, 0.5f, 0.5f}));
 }
 
-// Slow version: each pixel searches its row and column for the nearest ground that continues up to it.
+// Slow version: each pixel searches its row and column for the grounds that continue up to it.
 TEST(Fillers, AreWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
         const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
         const Imath::Box2i known({5, 4}, {60, 45});
-        const auto ground = [&](int x, int y) { // disparity, -1: unknown
+        const auto ground = [&](const Imath::V2i &at) { // disparity, -1: unknown
             double left = 1, depth = -1;
-            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y)))) {
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at))) {
                 const double alpha = opaque ? 1 : double(ldi.values[ldi.alpha()][i]);
                 left *= 1 - alpha;
                 if (alpha >= 0.5) depth = disparity(lens, double(ldi.z[i]));
             }
-            return left < 1.0 / 2048 ? depth : known.intersects(Imath::V2i(x, y)) ? 0 : -1;
+            return left < 1.0 / 2048 ? depth : known.intersects(at) ? 0 : -1;
         };
-        const auto goes_on = [&](double from, double to, int n) {
-            return to >= 0 && to - from > std::max(0.5, (n - 1) / std::sqrt(2.0));
+        const auto goes_on = [&](double from, const Imath::V2i &end, const Imath::V2i &step, int n) {
+            for (int m = 1; m <= n; ++m)
+                if (const double to = ground(end + m * step);
+                    to < 0 || to - from <= std::max(0.5, (m - 1) / std::sqrt(2.0)))
+                    return false;
+            return from >= 0;
         };
-        const auto distance = [&](int x, int y, int dx, int dy) { // 1000: none continues
-            for (int n = 1; ldi.windows.grid().contains(Imath::V2i(x - n * dx, y - n * dy)); ++n) {
-                const double from = ground(x - n * dx, y - n * dy);
-                bool on = from >= 0;
-                for (int m = 1; m <= n && on; ++m)
-                    on = goes_on(from, ground(x - (n - m) * dx, y - (n - m) * dy), m);
-                if (on) return n;
+        std::vector<std::vector<double>> expected(ldi.windows.pixels()), depths = expected;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const Imath::V2i at = ldi.windows.pixel(i);
+            std::vector<std::pair<int, double>> nearest, farthest; // of each direction: distance and depth
+            for (const Imath::V2i &step : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+                std::vector<std::pair<int, double>> found;
+                for (int n = 1; ldi.windows.grid().contains(at - n * step); ++n)
+                    if (const double from = ground(at - n * step); goes_on(from, at - n * step, step, n))
+                        found.push_back({n, from});
+                if (found.empty()) continue;
+                nearest.push_back(found.front());
+                farthest.push_back(*std::ranges::min_element(found, {}, &std::pair<int, double>::second));
             }
-            return 1000;
-        };
-        std::vector<double> expected(ldi.windows.pixels(), -1),
-            depths = expected; // of the ground that continues
-        for (int y = 0; y < 50; ++y)
-            for (int x = 0; x < 70; ++x) {
-                int nearest = 1000;
-                for (const Imath::V2i &d : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-                    const int n = distance(x, y, d.x, d.y);
-                    if (n == 1000 || n > nearest) continue;
-                    const double depth = ground(x - n * d.x, y - n * d.y);
-                    double &e = expected[ldi.windows.index(Imath::V2i(x, y))];
-                    e = n < nearest ? depth : std::min(e, depth);
-                    nearest = n;
-                }
-                double &e = expected[ldi.windows.index(Imath::V2i(x, y))];
-                bool is_seen = false;
-                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(Imath::V2i(x, y))))
-                    is_seen = is_seen || std::abs(disparity(lens, double(ldi.z[i])) - e) < 0.5;
-                if (e > 0 && is_seen) e = -1;
-            }
+            const auto add = [&](double depth) {
+                for (const std::uint64_t s : ldi.pixel(i))
+                    if (depth > 0 && std::abs(disparity(lens, double(ldi.z[s])) - depth) < 0.5) return;
+                expected[i].push_back(depth);
+            };
+            if (nearest.empty()) continue;
+            const double first = std::ranges::min(nearest).second;
+            add(first);
+            std::erase_if(farthest, [&](const auto &end) { return first - end.second <= 0.5; });
+            if (!farthest.empty()) add(std::ranges::min(farthest).second);
+        }
         for (const Filler &filler : find_fillers(ldi, lens, known))
-            depths[filler.pixel] = disparity(lens, double(filler.z));
-        for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(depths[i], expected[i], 1e-5) << i;
+            depths[filler.pixel].push_back(disparity(lens, double(filler.z)));
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            ASSERT_EQ(depths[i].size(), expected[i].size()) << i;
+            for (std::size_t n = 0; n < depths[i].size(); ++n)
+                ASSERT_NEAR(depths[i][n], expected[i][n], 1e-5) << i;
+        }
     }
 }
 
 // A red post at CoC -4 before a grey wall at CoC 4; `edge` is the wall's last pixel. Returns red and green of the
-// filler of the next pixel.
+// nearer filler of the next pixel.
 std::array<float, 2> filled_beside(const std::vector<Sample> &edge) {
     const Ldi ldi = make_ldi(windows_of_size(6, 1), rgba_channels(), [&](int x, int) {
         if (x == 2) return edge;
@@ -156,10 +164,9 @@ std::array<float, 2> filled_beside(const std::vector<Sample> &edge) {
                      : std::vector<Sample>{{depth_of(lens, -4), {0.8f, 0, 0, 1}}};
     });
     std::array<float, 2> colour{0, 0};
-    for (const Filler &filler : find_fillers(ldi, lens, ldi.windows.data))
-        for (const Filler::Part &part : filler.parts())
-            for (std::size_t k = 0; k < 2 && filler.pixel == 3; ++k)
-                colour[k] += part.share * ldi.values[k][part.sample];
+    const LargeArray<Filler> fillers = find_fillers(ldi, lens, ldi.windows.data);
+    for (const Filler::Part &part : std::ranges::find(fillers, 3u, &Filler::pixel)->parts())
+        for (std::size_t k = 0; k < 2; ++k) colour[k] += part.share * ldi.values[k][part.sample];
     return colour;
 }
 
