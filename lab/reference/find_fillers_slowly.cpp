@@ -32,13 +32,41 @@ public:
     SlowFillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known)
         : ldi_(ldi), lens_(lens), known_(known) {}
 
-    std::optional<Filler> at(const Imath::V2i &pixel) const {
-        std::vector<Side> sides;
-        for (const Imath::V2i &on : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}})
-            if (const auto side = nearest_side(pixel, on)) sides.push_back(*side);
-        if (sides.empty()) return {};
+    std::vector<Filler> at(const Imath::V2i &pixel) const {
+        std::vector<Filler> fillers;
+        std::vector<Side> sides = sides_at(pixel, nearest_of);
+        if (sides.empty()) return fillers;
+        const Side first = fill(pixel, sides, fillers);
+        sides = sides_at(pixel, farthest_of);
+        std::erase_if(sides, [&](const Side &side) {
+            return first.ground.depth - side.ground.depth <= one_surface_px;
+        });
+        if (!sides.empty()) fill(pixel, sides, fillers);
+        return fillers;
+    }
+
+private:
+    using Chosen = Side (*)(const std::vector<Side> &);
+
+    static Side nearest_of(const std::vector<Side> &sides) { return sides.front(); }
+    static Side farthest_of(const std::vector<Side> &sides) {
+        return *std::ranges::min_element(sides, {}, [](const Side &side) { return side.ground.depth; });
+    }
+
+    // Of each direction one of the grounds that reach the pixel.
+    std::vector<Side> sides_at(const Imath::V2i &pixel, Chosen choose) const {
+        std::vector<Side> chosen;
+        for (const Imath::V2i &on : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+            const std::vector<Side> sides = sides_along(pixel, on);
+            if (!sides.empty()) chosen.push_back(choose(sides));
+        }
+        return chosen;
+    }
+
+    // Adds the filler of these sides, and returns the side that decides.
+    Side fill(const Imath::V2i &pixel, const std::vector<Side> &sides, std::vector<Filler> &fillers) const {
         const Side first = *std::ranges::min_element(sides, fills_before);
-        if (first.ground.sample && holds(pixel, first.ground.depth)) return {};
+        if (first.ground.sample && holds(pixel, first.ground.depth)) return first;
         Filler filler{std::uint32_t(ldi_.windows.index(pixel)), z_of(first.ground), 0, {}};
         double weights = 0;
         for (const Side &side : sides) {
@@ -51,10 +79,10 @@ public:
             weights += weight;
         }
         for (Filler::Part &part : filler.part) part.share /= float(weights);
-        return filler;
+        fillers.push_back(filler);
+        return first;
     }
 
-private:
     bool holds(const Imath::V2i &pixel, double depth) const {
         for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel)))
             if (std::abs(disparity(lens_, double(ldi_.z[i])) - depth) < one_surface_px) return true;
@@ -96,12 +124,14 @@ private:
         return true;
     }
 
-    std::optional<Side> nearest_side(const Imath::V2i &pixel, const Imath::V2i &on) const {
+    // The grounds that reach the pixel, the one with the nearest end first.
+    std::vector<Side> sides_along(const Imath::V2i &pixel, const Imath::V2i &on) const {
+        std::vector<Side> sides;
         for (int n = 1; ldi_.windows.data.intersects(pixel - n * on); ++n) {
             const Found from = ground(pixel - n * on);
-            if (from && reaches(*from, on, n)) return Side{n, *from, shown_by(*from, on)};
+            if (from && reaches(*from, on, n)) sides.push_back({n, *from, shown_by(*from, on)});
         }
-        return {};
+        return sides;
     }
 
     // If the last sample's colour is a mixture with what hides it, the ground one pixel before it; else the last
@@ -138,7 +168,7 @@ std::vector<Filler> find_fillers_slowly(const Ldi &ldi, const ThinLens &lens, co
     const SlowFillers slow(ldi, lens, known);
     std::vector<Filler> fillers;
     for (std::size_t i = 0; i < ldi.windows.pixels(); ++i)
-        if (const auto filler = slow.at(ldi.windows.pixel(i))) fillers.push_back(*filler);
+        for (const Filler &filler : slow.at(ldi.windows.pixel(i))) fillers.push_back(filler);
     return fillers;
 }
 

@@ -48,8 +48,8 @@ struct Filler {
     bool is_nothing() const { return part[0].sample == nothing; }
 };
 
-// Returns at most two fillers per pixel, the nearer first, in the order of the pixels. The LDI must have fewer than 2^32 samples and
-// pixels.
+// Returns at most two fillers per pixel, the nearer first, in the order of the pixels. The LDI must have fewer than 2^32
+// samples and pixels.
 LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
 // Fillers as the lens gather needs them: in blocks.
