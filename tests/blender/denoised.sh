@@ -41,6 +41,44 @@ gathered_by_hand hand.ldi.exr
 same line/views/gathered.exr "denoised views of the script"
 ! exrheader line/views/rays_1.exr | grep Noisy >/dev/null || fail "rays are not denoised"
 
+# One picture answers both questions of a frame, without the denoiser, and the engine keeps the scene for the renders after
+# it. The lines say how far the views are, and what they cost.
+cat >costs.py <<END
+import sys
+sys.path.insert(0, "$(dirname "$views")")
+import bpy
+from sparselens_blender import command, costs, exr
+def render_now(scene, steps):
+    for step in steps:
+        cycles = scene.cycles
+        print("render", step, cycles.use_denoising, cycles.samples, cycles.max_bounces, scene.render.use_persistent_data, flush=True)
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+command.render_now = render_now
+def header_of(path):  # 4 s a view, a half of whose pixels are overscan; none has the time of the last one
+    time = {} if path == "x.exr" else {"RenderTime": exr.exr_text("00:04.00")}
+    return time | {"displayWindow": exr.exr_box(0, 0, 20, 10), "dataWindow": exr.exr_box(-5, -5, 40, 10)}
+own, costs.header_of = costs.header_of, header_of
+views = ["a/center.exr"] + ["a/view_%d.exr" % number for number in range(4)]
+for words in (views, None), (views, 0.5), (views, 2), (["x.exr"], 1), (views[1:], 1):
+    print("cost", costs.in_words(*words), flush=True)
+costs.header_of = own
+END
+in_blender smooth.blend -P costs.py -P "$views" -- -o cost --samples 8 --views 2
+grep '^render ' said >renders || fail "no renders: $(tail -n 5 said)"
+printf 'render %s\n' 'edges False 1 0 True' 'center.exr True 2 2 True' 'view_0.exr True 2 2 True' 'view_1.exr True 2 2 True' | cmp - renders ||
+    fail "the renders of a frame: $(cat renders)"
+grep -q '^sparselens: view_0.exr: 2 of 3 views, 66 %$' said || fail "no progress: $(grep ^sparselens said)"
+grep -Eq '^sparselens: 3 views took [0-9.]+ s, as [3-9]\.[0-9] renders through the lens$' said || fail "no cost: $(grep ^sparselens said)"
+{
+    echo 'cost 5 views took 20.0 s, as 10.0 renders through the lens'
+    echo 'cost 5 views took 20.0 s, as 10.0 renders through the lens; another focus takes 0.5 s instead of 2.0 s, so the views save time from focus 14 on'
+    echo 'cost 5 views took 20.0 s, as 10.0 renders through the lens; another focus takes 2.0 s, and a render 2.0 s'
+    echo 'cost '
+    echo 'cost '
+} >words
+grep '^cost ' said | cmp words - || fail "what views cost: $(grep '^cost ' said)"
+echo "one probe without the denoiser; what views cost"
+
 # A picture with passes has no size in Blender, and its colours another name.
 in_blender noisy.blend --python-expr "import bpy; bpy.context.view_layer.aovs.add().name = 'mine'
 bpy.ops.wm.save_as_mainfile(filepath='$PWD/passes.blend')"

@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import tempfile
+import time
 
 
 class ToolError(RuntimeError):
@@ -46,7 +47,7 @@ class Chain:
     def __init__(self, commands):
         self.left = list(commands)
         self.process = self.said = None
-        self.warnings = []
+        self.warnings, self.began, self.seconds = [], 0, 0  # of the last one
 
     def poll(self):
         """Returns whether all is done. Raises ToolError if a tool has
@@ -62,7 +63,7 @@ class Chain:
         if not self.left:
             return False
         command = self.left.pop(0)
-        self.said = tempfile.TemporaryFile()
+        self.said, self.began = tempfile.TemporaryFile(), time.monotonic()
         try:
             self.process = subprocess.Popen(
                 command + ["--progress", "plain"], stdin=subprocess.DEVNULL,
@@ -75,6 +76,7 @@ class Chain:
 
     def end(self):
         process, self.process = self.process, None
+        self.seconds = time.monotonic() - self.began
         with self.said as said:
             said.seek(0)
             lines = [line for line

@@ -9,7 +9,7 @@ import traceback
 
 import bpy
 
-from . import panel
+from . import costs, panel
 from .manner import Count, Manner
 from .options import read_options
 from .renders import folder_of, render_now, views_steps
@@ -42,6 +42,11 @@ def frames_of(options, scene):
     return [scene.frame_current]
 
 
+def tell(words):
+    if words:
+        print("sparselens:", words)
+
+
 def render_views(options, scene, eyes, manner, say):
     if options.plan and len(eyes) > 1:
         raise ValueError("--plan: a plan is made for one eye: name it (--eye)")
@@ -66,6 +71,7 @@ def render_views(options, scene, eyes, manner, say):
     rolling = shutter_options(scene, manner.shutter, folder)
     if rolling:
         say("the shutter rolls: give dof-gather %s" % " ".join(rolling))
+    tell(costs.in_words(count.paths))
     print("sparselens_views.py: %s in %s" % (counted(count.rendered, "view"),
                                              options.output))
 
@@ -86,6 +92,7 @@ def main(options, say):
     manner.keep = not options.again
     made = Pictures(scene, eyes, manner, options, say)
     render_now(scene, made.steps(frames_of(options, scene)))
+    tell(made.cost)
     print("sparselens:", made.words())
 
 

@@ -23,6 +23,7 @@ class Finishing:
     def __init__(self, scene, manner):
         settings = scene.sparselens
         self.scene, self.images, self.warnings = scene, [], []
+        self.cost = ""  # a further focus takes new rays
         self.tools, _ = tools.find(chosen_folder())
         self.looks, layer = looks_of(settings), used_layers(scene)[0]
         check_halves(scene, manner.shutter)

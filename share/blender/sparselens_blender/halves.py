@@ -32,7 +32,8 @@ def halves_steps(scene, path_of, eye, manner, view_steps, asked=()):
                    asked_renders(asked) or [("rays_%d", manner.finish, None)],
                    1 if asked else 0) for half in (1, 2)]
     with render_settings(scene, shot.size, manner.multilayer), \
-            still_camera(scene), only_layer(scene, manner.layer):
+            still_camera(scene), only_layer(scene, manner.layer), \
+            changed(scene.render, use_persistent_data=True):
         for seed, name, count, box in renders:
             with open_lens(scene.camera, shot), changed(
                     cycles, seed=(cycles.seed + seed) % 2 ** 31,

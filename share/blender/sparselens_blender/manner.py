@@ -2,7 +2,7 @@
 
 import math
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .shutter import Moment, of_moment
 from .sub_pixels import AUTO
@@ -22,6 +22,7 @@ class Manner:
     keep: bool = False       # keep unchanged views of an earlier run
     shutter: int = 1         # moments; 1: a still
     moment: Moment = None    # that is rendered
+    overscans: dict = field(default_factory=dict)  # known ones, by centre view
 
     @property
     def attributes(self):
@@ -38,7 +39,25 @@ class Count:
 
     rendered: int = 0
     kept: int = 0
+    most: int = 0  # of all frames
+    paths: list = field(default_factory=list)  # of the rendered ones
     oldest: float = math.inf  # time of the oldest kept view
+
+    def expect(self, views, frames):
+        """Notes that each frame that is left has this number of views."""
+        self.most = self.rendered + self.kept + views * frames
+
+    def note(self, path):
+        """Counts a rendered view, and says so."""
+        self.rendered += 1
+        self.paths.append(path)
+        print("sparselens: %s: %s" % (os.path.basename(path), self.so_far()),
+              flush=True)
+
+    def so_far(self):
+        done = self.rendered + self.kept
+        return "%d of %d views, %d %%" % (done, self.most, 100 * done
+                                          // max(self.most, 1))
 
     def keep(self, paths):
         self.kept += len(paths)

@@ -74,11 +74,12 @@ def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
 
 def probe_steps(scene, path, shot, size, layer, words):
     """Renders a picture of one sample per pixel, of this size, from the centre
-    of the lens, and returns its EXR."""
+    of the lens, for its depth alone, and returns the rows of depth."""
     with ExitStack() as stack:
         stack.enter_context(only_layer(scene, layer))
         stack.enter_context(render_settings(scene, size, codec="NONE"))
-        stack.enter_context(changed(scene.cycles, samples=1))
+        stack.enter_context(changed(scene.cycles, samples=1, max_bounces=0,
+                                    use_denoising=False))
         stack.enter_context(changed(scene.eevee, taa_render_samples=1))
         camera = stack.enter_context(still_camera(scene))
         stack.enter_context(changed(scene.render, filepath=path))
@@ -86,30 +87,34 @@ def probe_steps(scene, path, shot, size, layer, words):
         try:
             yield words
             with open(path, "rb") as file:
-                return file.read()
+                return depth_rows(file.read())
         finally:
             if os.path.exists(path):
                 os.remove(path)
 
 
-def overscan_steps(scene, folder, shot, layers):
-    """The pixels of overscan that the blur of a frame needs: the largest
-    circle of confusion at its border, in any of the layers. It is read from
-    the depth of small pictures with one sample per pixel."""
-    shrink = min(1, LARGEST_PROBE / max(shot.size))
-    size = [max(1, round(side * shrink)) for side in shot.size]
-    path = os.path.join(folder, ".overscan.%04d.partial.exr"
-                        % scene.frame_current)
-
+def border_blur(rows, shot):
+    """The largest circle of confusion at the border of a picture with these
+    rows of depth, in pixels of the shot; at most the picture's size."""
     def largest(depths, stretch, most):
         radius = max(shot.blur_radius(depth) for depth in depths if depth > 0)
         return min(math.ceil(radius * stretch), most, LARGEST_OVERSCAN)
 
+    columns = [row[0] for row in rows] + [row[-1] for row in rows]
+    return max(largest(columns, 1, shot.size[0]), largest(
+        rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))
+
+
+def overscan_steps(scene, folder, shot, layers):
+    """The pixels of overscan that the blur of a frame needs: the largest
+    circle of confusion at its border, in any of the layers. It is read from
+    small pictures."""
+    shrink = min(1, LARGEST_PROBE / max(shot.size))
+    size = [max(1, round(side * shrink)) for side in shot.size]
+    path = os.path.join(folder, ".overscan.%04d.partial.exr"
+                        % scene.frame_current)
     found = 0
     for layer in layers:
-        rows = depth_rows((yield from probe_steps(scene, path, shot, size,
-                                                  layer, "overscan")))
-        columns = [row[0] for row in rows] + [row[-1] for row in rows]
-        found = max(found, largest(columns, 1, shot.size[0]), largest(
-            rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))
+        found = max(found, border_blur((yield from probe_steps(
+            scene, path, shot, size, layer, "overscan")), shot))
     return found

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 
-from . import nodes
+from . import costs, nodes
 from .chunked import Chunked, Rendering
 from .chain import Once
 from .finishing import Finishing
@@ -34,7 +34,8 @@ def manner_of(settings):
 
 
 def views_in(settings):
-    """The number of views of a frame and an eye, with the deep ones."""
+    """The number of views of a frame and an eye, with the deep ones. Each
+    costs a render."""
     return settings.shutter * (
         (settings.views + 1) * (1 + len(names_of(settings.layers)))
         + (settings.slices > 0))
@@ -42,7 +43,7 @@ def views_in(settings):
 
 class Renders(Chunked):
     """An operator of steps: prepare(context) sets self.steps; for views also
-    self.count, and self.most, the total number of views."""
+    self.count."""
 
     holds = True
 
@@ -72,8 +73,7 @@ class Renders(Chunked):
         return done
 
     def so_far(self):
-        return ", %d of %d views" % (self.count.rendered + self.count.kept,
-                                     self.most)
+        return ", " + self.count.so_far()
 
     def may_stop(self):
         """A running render handles Esc by itself."""
@@ -83,12 +83,18 @@ class Renders(Chunked):
         self.rendering.end()
 
 
+def tell(operator, words):
+    if words:
+        operator.report({"INFO"}, words)
+
+
 def say_warnings(operator, taken):
     """Reports the warnings of the pictures, and which images show them."""
     say = Once(lambda text: report(operator, "WARNING", text))
     for text in taken.warnings:
         say(text)
     say.end()
+    tell(operator, taken.cost)
     operator.report({"INFO"}, "The image editor shows %s"
                     % ", ".join(taken.images))
 
@@ -107,12 +113,12 @@ class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
         views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
         self.folder, self.count = folder_of(settings.folder), Count()
         check_folder(self.folder, eyes, frames, settings.animation)
-        self.most = len(frames) * views_in(settings) * len(eyes)
         self.steps = views_steps(
             scene, frames, self.folder, lambda frame: views, eyes,
             manner_of(settings), self.count, settings.animation, self.warn)
 
     def done(self, context):
+        tell(self, costs.in_words(self.count.paths))
         self.report({"INFO"}, "%s in %s" % (
             counted(self.count.rendered, "view"), self.folder))
 
@@ -144,9 +150,9 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
                                       "switch Keep Views off")
         self.count, self.steps = (self.pictures.count,
                                   self.pictures.steps(frames))
-        self.most = len(frames) * views_in(settings) * len(eyes)
 
     def done(self, context):
+        tell(self, self.pictures.cost)
         self.report({"INFO"}, self.pictures.words())
 
 

@@ -11,10 +11,11 @@ from .chunked import SPARSELENS_OT_note_keys
 from .operators import (
     SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
-    SPARSELENS_OT_take_picture, frames_of)
+    SPARSELENS_OT_take_picture, frames_of, views_in)
 from .shots import picture_size
 from .tool_operators import (
     SPARSELENS_OT_find_tools, SPARSELENS_OT_install_tools)
+from .views import counted
 from .words import in_panel
 
 
@@ -171,8 +172,9 @@ class SPARSELENS_PT_panel(InCamera, bpy.types.Panel):
         layout.prop(settings, "finish_frames")
         layout.prop(settings, "keep")
         layout.operator("sparselens.render_animation")
-        layout.label(text="%d frames, up to %.1f GB" % (
-            len(frames_of(context.scene)), gigabytes(context.scene)))
+        layout.label(text="%d frames of %s, up to %.1f GB" % (
+            len(frames_of(context.scene)), counted(
+                views_in(settings), "render"), gigabytes(context.scene)))
         layout.operator("sparselens.make_nodes")
 
 

@@ -139,6 +139,13 @@ def noise_of(path, layer):
                  if name.endswith((layer or "") + ending)), None)
 
 
+def rendered_files(files):
+    """All files that Blender has rendered for a picture."""
+    layers, volumes = parts_of_file(files.each("center")[0])
+    return [view for part in ["", *layers] for view in files.each_of(part)] + [
+        path for name in volumes for path in files.each(name)]
+
+
 def warp_commands(folder, files, layer=None):
     """Commands that make the LDI, none if it is newer than the views. The
     centre view says whether see-through layers and a deep view of the volumes
@@ -146,8 +153,7 @@ def warp_commands(folder, files, layer=None):
     because the existing one may be of another layer."""
     layers, volumes = parts_of_file(files.each("center")[0])
     parts, ldis = ["", *layers], files.each("ldi")
-    rendered = [view for part in parts for view in files.each_of(part)] + [
-        path for name in volumes for path in files.each(name)]
+    rendered = rendered_files(files)
     if files.moments > 1:
         forget_more(ldis[0], files.moments)
     if not layer and all(is_newest(ldi, rendered) for ldi in ldis):

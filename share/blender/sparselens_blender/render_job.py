@@ -4,7 +4,7 @@ import os
 
 import bpy
 
-from . import pictures, tools
+from . import costs, pictures, tools
 from .chain import Chain, ToolError
 from .kept import of_other_file
 from .looks import looks_of
@@ -103,6 +103,7 @@ class PictureJob:
         self.stages = ([("warping", warps)]
                        + ([("a draft", drafts)] if draft else [])
                        + [("the picture", finals)])
+        self.files, self.cost = files, ""  # of the last eye
         self.words, self.chain, self.to_show = "", None, []
 
     @property
@@ -118,6 +119,8 @@ class PictureJob:
                 for eye, path, size in self.to_show:
                     self.show(eye, path, size)
             if not self.stages:
+                self.cost = costs.in_words(
+                    pictures.rendered_files(self.files), self.chain.seconds)
                 return True
             self.words, commands = self.stages.pop(0)
             self.chain = Chain([command for command, _ in commands])

@@ -113,7 +113,7 @@ def volume_steps(scene, path_of, eye, manner, rest, count):
         yield from slice_steps(
             scene, path, center, shot, beyond, manner, rest.unseen,
             attributes | camera_attributes(shot, shot.placement))
-    count.rendered += 1
+    count.note(path)
 
 
 def part_steps(scene, path_of, views, eye, manner, part, count):
@@ -131,11 +131,13 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
         if manner.keep and is_kept(center, shot, (0, 0), attributes):
             pixels = overscan_of_file(center) // finest
         else:
-            with only_layer(scene, manner.layer):
-                needed = yield from overscan_steps(
-                    scene, os.path.dirname(center), shot,
-                    used_layers(scene))
-            pixels = math.ceil(needed / finest)
+            pixels = manner.overscans.get(center)
+            if pixels is None:
+                with only_layer(scene, manner.layer):
+                    needed = yield from overscan_steps(
+                        scene, os.path.dirname(center), shot,
+                        used_layers(scene))
+                pixels = math.ceil(needed / finest)
             print("sparselens: frame %g%s: overscan of %d pixels" % (
                 manner.moment.time if manner.moment else scene.frame_current,
                 eye.name and ", " + eye.name, pixels))
@@ -161,7 +163,7 @@ def part_steps(scene, path_of, views, eye, manner, part, count):
                 yield from view_steps(
                     scene, path_of(name), shot, u, beyond, box, attributes,
                     plain=not manner.multilayer)
-            count.rendered += 1
+            count.note(path_of(name))
 
 
 def frame_ending(frame, several):
@@ -200,9 +202,12 @@ def settle_supersample(scene, folder, frames, several, manner):
         center = replace(manner, moment=moment).path(os.path.join(
             folder, "center" + eye.file_suffix + frame_ending(frame, several)))
         with at_moment(scene, moment), only_layer(scene, manner.layer):
-            found = max(found, (yield from supersample_steps(
+            number, pixels = yield from supersample_steps(
                 scene, center, eye, manner.keep, used_layers(scene),
-                manner.shutter)))
+                manner.shutter)
+        found = max(found, number)
+        if pixels is not None and not (manner.slices or manner.layers):
+            manner.overscans[center] = pixels
     manner.supersample = found
 
 
@@ -220,7 +225,7 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     if manner.slices:
         check_slices(scene, [manner.layer] if manner.layer
                      else used_layers(scene))
-    parts_of(scene, manner.layers)
+    parts, every = parts_of(scene, manner.layers), list(shot or frames)
     centers = list(centers_in(folder, eyes, [
         frame_ending(frame, several) for frame in frames]))
     for path in centers:
@@ -230,12 +235,18 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
         say(found)
     os.makedirs(folder, exist_ok=True)
     before, within = scene.frame_current, scene.frame_subframe
+    stack = ExitStack()
     try:
+        # Most renders differ from the one before in the camera alone.
+        stack.enter_context(changed(scene.render, use_persistent_data=True))
         yield from settle_supersample(
             scene, folder, shot or frames, several, manner)
         for frame in frames:
             scene.frame_set(frame)
             views, ending = views_at(frame), frame_ending(frame, several)
+            count.expect(len(eyes) * manner.shutter * (
+                len(views) * len(parts) + (manner.slices > 0)),
+                len(every) - every.index(frame))
             for moment in moments_of(scene, frame, manner.shutter):
                 with at_moment(scene, moment):
                     for eye in eyes:
@@ -248,6 +259,7 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
                         folder, name + eye.file_suffix + ending),
                     eye, manner, view_steps)
     finally:
+        stack.close()
         if (scene.frame_current, scene.frame_subframe) != (before, within):
             scene.frame_set(before, subframe=within)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import bpy
 
-from . import pictures, tools
+from . import costs, pictures, tools
 from .chain import Chain, Once
 from .temporary_settings import other_files, samples_of
 from .halves import check_halves, check_looks, halves_steps
@@ -58,7 +58,7 @@ class Pictures:
             os.path.basename(options.output)) + self.ending
         self.views = folder_of(options.views_folder or os.path.join(
             os.path.dirname(self.name), "views"))
-        self.count, self.made = Count(), 0
+        self.count, self.made, self.cost = Count(), 0, ""
         if options.finish:
             check_halves(scene, manner.shutter)
             check_looks(self.looks())
@@ -130,6 +130,9 @@ class Pictures:
             frame, counted(len(files.each_of("")), "view"),
             self.parts_in_words()), flush=True)
         yield chain
+        if not self.options.finish:
+            self.cost = costs.in_words(
+                pictures.rendered_files(files), chain.seconds)
         for text in chain.warnings:
             self.say(text.split(": warning: ", 1)[1])
         if made != out:

@@ -4,10 +4,9 @@ advises: where many pixels are at edges of depth."""
 import os
 from operator import or_
 
-from .exr import depth_rows
 from .temporary_settings import samples_of
 from .kept import header_of, is_of_camera, supersample_of
-from .one_view import probe_steps
+from .one_view import border_blur, probe_steps
 from .shots import shot_of
 
 AUTO = "auto"  # supersample and overscan: as the frame needs it
@@ -53,21 +52,23 @@ def supersample_steps(scene, center, eye, keep, layers, moments):
     of an earlier run's centre view. Each of the frame's moments has its part
     of the samples. It is found from a picture of one sample per pixel, of the
     view layer with the most edges. The first eye of a scene decides for all,
-    so that they are alike."""
+    so that they are alike. Also returns the overscan that the same picture
+    asks for, or None if none was rendered."""
     if samples_of(scene) < 4 * moments:
-        return 1
+        return 1, None
     kept = keep and kept_supersample(scene, eye, center, moments)
     if kept:
-        return kept
-    shot, share = shot_of(scene, eye), 0
+        return kept, None
+    shot, share, beyond = shot_of(scene, eye), 0, 0
     for layer in layers:
-        data = yield from probe_steps(
+        rows = yield from probe_steps(
             scene, os.path.join(os.path.dirname(center), ".edges.%04d.partial"
                                 ".exr" % scene.frame_current),
             shot, shot.size, layer, "edges")
-        share = max(share, share_at_edges(depth_rows(data), shot))
+        share = max(share, share_at_edges(rows, shot))
+        beyond = max(beyond, border_blur(rows, shot))
     number = 2 if share >= MANY_EDGES else 1
     print("sparselens: frame %g: %.1f %% of the pixels are at edges of depth: "
           "supersample %d" % (scene.frame_current + scene.frame_subframe,
                               100 * share, number))
-    return number
+    return number, beyond
