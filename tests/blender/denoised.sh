@@ -68,7 +68,7 @@ grep '^render ' said >renders || fail "no renders: $(tail -n 5 said)"
 printf 'render %s\n' 'edges False 1 0 True' 'center.exr True 2 2 True' 'view_0.exr True 2 2 True' 'view_1.exr True 2 2 True' | cmp - renders ||
     fail "the renders of a frame: $(cat renders)"
 grep -q '^sparselens: view_0.exr: 2 of 3 views, 66 %$' said || fail "no progress: $(grep ^sparselens said)"
-grep -Eq '^sparselens: 3 views took [0-9.]+ s, as [3-9]\.[0-9] renders through the lens$' said || fail "no cost: $(grep ^sparselens said)"
+grep -Eq '^sparselens: 3 views took [0-9.]+ s, as [0-9.]+ renders through the lens$' said || fail "no cost: $(grep ^sparselens said)"
 {
     echo 'cost 5 views took 20.0 s, as 10.0 renders through the lens'
     echo 'cost 5 views took 20.0 s, as 10.0 renders through the lens; another focus takes 0.5 s instead of 2.0 s, so the views save time from focus 14 on'

@@ -172,7 +172,7 @@ def steps(addon, folder, screenshot):
             *[(finish, 1024, wait, None, set()) for wait in range(4)],
             (finish, 2, None, 1, {"rays_1.exr"}), (finish, 2, None, 1, set()),
             *[(animation, 1024, wait, None, set()) for wait in range(2)],
-            (animation, 4, None, 1, set()), (animation, 4, None, 5, {"frames/center.0001.exr"})):
+            (animation, 4, None, 1, set()), (animation, 4, None, 4, {"frames/center.0001.exr"})):
         scene.cycles.samples, scene.sparselens.finish = samples, 4 * samples
         scene.sparselens.folder = os.path.join(folder, "frames") if operator is animation else folder
         found = yield from stop_by_esc(addon, operator, folder, wait, end_of)
