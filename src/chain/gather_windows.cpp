@@ -7,6 +7,7 @@
 #include "deep/checks/view_warnings.h"
 #include "deep/flatten.h"
 #include "deep/proxy.h"
+#include "dof/lens/lens_gather.h"
 #include "io/camera/camera_header.h"
 #include "io/files/memory_limit.h"
 #include "kernels/warp_rules.h"
@@ -25,9 +26,9 @@ Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *wh
     return box;
 }
 
-// Whether `data` contains the whole display window.
-bool holds(const Imath::Box2i &data, const Imath::Box2i &display) {
-    return data.intersects(display.min) && data.intersects(display.max);
+// Whether `data` contains the whole window.
+bool holds(const Imath::Box2i &data, const Imath::Box2i &window) {
+    return data.intersects(window.min) && data.intersects(window.max);
 }
 
 // The bytes taken by the samples of a picture, and by the index of its pixels.
@@ -63,17 +64,32 @@ Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int acr
     return box;
 }
 
-// `ldi` with added pixels as far as the blur reaches into the display window, in whole blocks of sub-pixels, which are
-// added to `picture` too; empty if nothing reaches beyond `picture`.
+// `box`, extended inside the display window to whole tiles counted from its corner: the same pixels lie in the same
+// tiles, and lamps in the same cells, wherever the data window begins.
+Imath::Box2i whole_tiles(Imath::Box2i box, const Imath::Box2i &display) {
+    const Imath::Box2i inside = common_box(box, display);
+    if (inside.isEmpty()) return box;
+    const auto before = [](int pixels) { return pixels / lens_tile_size * lens_tile_size; };
+    for (const int axis : {0, 1}) {
+        const int first = display.min[axis], last = inside.max[axis] - first;
+        box.min[axis] = std::min(box.min[axis], first + before(inside.min[axis] - first));
+        box.max[axis] =
+            std::max(box.max[axis], std::min(display.max[axis], first + before(last) + lens_tile_size - 1));
+    }
+    return box;
+}
+
+// `ldi` with added pixels as far as the blur reaches into the display window, in whole tiles; empty if it has them all.
+// `picture` grows by what the blur reaches, in whole blocks of sub-pixels.
 std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          int across, Imath::Box2i &picture) {
-    const Imath::Box2i before = picture;
     if (lens.radius > 0 && !holds(picture, ldi.windows.display))
         picture.extendBy(reached_display(ldi, lens, looks));
     picture = whole_blocks(picture, ldi.windows.display, across);
-    if (picture == before) return {};
-    check_growth(in, ldi, picture);
-    return padded(ldi, picture);
+    const Imath::Box2i tiles = whole_tiles(picture, ldi.windows.display);
+    if (holds(ldi.windows.data, tiles)) return {};
+    check_growth(in, ldi, tiles);
+    return padded(ldi, tiles);
 }
 
 // How many pixels of the LDI, across and down, become one gathered pixel: more than 1 for previews.
@@ -163,6 +179,8 @@ void choose_windows(GatherWindows &frame, const WindowOptions &options, const Op
         if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.subpixels.across, frame.gathered))
             frame.changed = std::move(padded);
     need_all(frame, frame.ldi(in).windows.display);
+    if (options.overscan == OutputOverscan::grow)
+        frame.gathered = whole_tiles(frame.gathered, frame.ldi(in).windows.display);
     if (options.overscan == OutputOverscan::crop)
         frame.picture = common(frame.picture, reduced(frame.ldi(in).windows.display, frame.subpixels.across),
                                "`overscan=crop`: the display window");

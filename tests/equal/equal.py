@@ -562,20 +562,19 @@ NEVER = {
     "fifo": {"pipe": "refuses what is no file", "photo": "says that it needs a file"},
 }
 LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "gather-photo-exr", "pipe", "python", "match"
-LAMPS = "lamps, whose discs are exact, are told in cells of 32 pixels from the corner of the data window; all else is a pattern of points"
+LAMPS = "lamps, whose discs are exact, are told in cells of 32 pixels from the corner of what is gathered; all else is a pattern of points"
 SLOW = {"match"}  # doors
 KNOWN = {  # faults that are not mended yet: (door, change): why
     ("warp-denoised", "light"): "two pixels in 1536 have one sample more",
     **{(door, change): "dof-finish looks at the data window" for door in ("finish", "finish-denoised", "finish-ask") for change in ("cut", "overscan")},
-    ("gather-selective", "cut"): "0.8 % at edges that lie at the data window",
 }
 BOUNDS = {  # in place of that of the change, with the reason
     "half": {kind: (5e-4, "where they get halves, they write halves: one rounding") for kind in ("views", "two deep", "pipe")},
     **{name: {door: (2e-6, "OpenImageIO multiplies by a rounded 1/255") for door in ("gather-photo", "gather-photo-exr")} for name in ("tiff", "exif-6-tiff")},
     "light": {"match": (0.05, "dof-match compares the tones of a display")},
     "order": {"warp-denoised": (1e-6, "other sums"), "finish": (1e-6, "other sums")},
-    **{name: {**{door: (0.1, LAMPS) for door in LENS_DOORS},
-              "warp-denoised": (1e-6, "other sums")} for name in ("cut", "overscan")},
+    "cut": {"gather-ldi": (0.01, LAMPS), "match": (0.1, LAMPS), "warp-denoised": (1e-6, "other sums")},
+    "overscan": {**{door: (0.1, LAMPS) for door in LENS_DOORS}, "warp-denoised": (1e-6, "other sums")},
     **{name: {**{door: (0.1, LAMPS) for door in LENS_DOORS}, "compare": (1e-12, "other sums"),
               "warp-denoised": (1e-6, "other sums"), "finish": (1e-6, "other sums")} for name in ("mirrored", "transposed")},
     "depth-buffer": {"python": (5e-3, "depths are rounded, and a lens point sees another thing"), "views": (5e-4, "positions are halves")},
