@@ -13,6 +13,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens COMPONENT dev)
 install(DIRECTORY share/ocio share/blender share/nuke share/comfyui share/lenses share/openjd share/slurm share/opencue
+        share/deadline share/flamenco
         share/python DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
 install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json LICENSE # the zip of this folder goes to others
@@ -20,4 +21,5 @@ install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json LICENSE # the zip of 
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}) # headers cite design.md
 install(DIRECTORY share/images share/blender share/lenses share/openjd share/slurm share/opencue
+        share/deadline share/flamenco
         DESTINATION ${CMAKE_INSTALL_DOCDIR}/share USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)

@@ -18,7 +18,7 @@ gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers
 lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
 test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
-      munge mypy openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
+      munge mypy nodejs openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
 # Differences between releases. The sources are formatted by clang-format 14, which only Debian 12 has; the extensions
 # of Blender 5 need modules that its package lacks; the packages for wheels are in Debian 13 and later.
