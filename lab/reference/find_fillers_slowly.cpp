@@ -53,7 +53,7 @@ private:
         return *std::ranges::min_element(sides, {}, [](const Side &side) { return side.ground.depth; });
     }
 
-    // Of each direction one of the grounds that reach the pixel.
+    // One of the grounds that reach the pixel, for each direction.
     std::vector<Side> sides_at(const Imath::V2i &pixel, Chosen choose) const {
         std::vector<Side> chosen;
         for (const Imath::V2i &on : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
