@@ -128,7 +128,7 @@ ParameterRows<PictureChoice> kind_parameters() {
 ParameterRows<PictureChoice> depth_file_parameters() {
     static const auto rows =
         all<PictureChoice>({{text("depth-file", "FILE",
-                                  "File with the depth of the picture, of the same size: a flat EXR, or a "
+                                  "File with the depth of the picture: a flat EXR of the same size, or a "
                                   "grey PNG, JPEG or TIFF, which is a "
                                   "`disparity`",
                                   Form::file),

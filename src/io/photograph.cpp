@@ -8,6 +8,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
+#include "view/fitted_depth.h"
 
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfIntAttribute.h>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -53,12 +55,19 @@ Photograph flat_file(ShownFile shown) {
     return file;
 }
 
-// Turns a depth of the size of the picture's stored rows as these were turned.
+// Whether two frames have the same shape, within a pixel of either.
+bool alike(std::int64_t width, std::int64_t height, const Windows &other) {
+    const std::int64_t w = other.display_width(), h = other.display_height();
+    return std::abs(width * h - height * w) <= std::max({width, height, w, h});
+}
+bool alike(const Windows &a, const Windows &b) { return alike(a.display_width(), a.display_height(), b); }
+bool alike_if_turned(const Windows &a, const Windows &b) {
+    return !alike(a, b) && alike(a.display_height(), a.display_width(), b);
+}
+
+// Turns a depth of the shape of the picture's stored rows as these were turned.
 void turn_depth(FlatFile &depth, const std::string &name, Photograph &picture) {
-    const Windows &from = depth.image.windows, &to = picture.image.windows;
-    if (picture.orientation < 5 || from.width() != to.height() || from.height() != to.width() ||
-        from.width() == from.height())
-        return;
+    if (picture.orientation < 5 || !alike_if_turned(depth.image.windows, picture.image.windows)) return;
     depth.image.channels.resize(1);
     depth.image = turned(depth.image, picture.orientation);
     picture.warnings.push_back("is turned by its Exif, and " + name + " is not: the depth is turned, too");
@@ -75,18 +84,18 @@ void require_grey(const Image &image, const std::string &name) {
                             "colour map, white near (`depth_file`)");
 }
 
-void require_size(const Windows &depth, const std::string &name, const Windows &picture,
-                  const std::string &path) {
-    const auto size = [](const Windows &w) {
-        return fmt::format("{}x{}", w.display_width(), w.display_height());
-    };
-    if (size(depth) == size(picture)) return;
-    const bool on_side = depth.display_width() == picture.display_height() &&
-                         depth.display_height() == picture.display_width();
-    throw Error(fmt::format("{}: is {} pixels large, and {} is {}: {} (oiiotool {} --{} -o NEW)", name,
-                            size(depth), path, size(picture),
-                            on_side ? "turn it" : "give a depth of the same size", name,
-                            on_side ? "rotate90, or --rotate270," : "resize " + size(picture)));
+void require_shape(const Windows &depth, const std::string &name, const Windows &picture,
+                   const std::string &path) {
+    if (alike(depth, picture)) return;
+    const int width = depth.display_width(), height = depth.display_height();
+    const bool on_side = alike_if_turned(depth, picture);
+    const double shape = double(picture.display_height()) / picture.display_width();
+    throw Error(
+        fmt::format("{}: is {}x{} pixels large, and {} is {}x{}: {} (oiiotool {} --{} -o NEW)", name, width,
+                    height, path, picture.display_width(), picture.display_height(),
+                    on_side ? "turn it" : "give the depth of the whole picture, and of its shape", name,
+                    on_side ? "rotate90, or --rotate270,"
+                            : fmt::format("resize {}x{}", width, std::max(1l, std::lround(width * shape)))));
 }
 
 // Gives the windows the corner and the shape of the pixels of another frame of that size: only EXR files have a corner.
@@ -108,6 +117,34 @@ Image extended(const Image &depth, const Imath::Box2i &data) {
     return result;
 }
 
+// A channel of a depth with another number of pixels, in the pixels of the picture.
+Image fitted(const Image &depth, std::size_t channel, const Image &picture) {
+    const Windows &own = depth.windows;
+    const Grid cells(own.display);
+    std::vector<float> values(cells.size()); // beyond the data window: nothing
+    const Imath::Box2i both = common_box(own.data, own.display);
+    for (int y = both.min.y; y <= both.max.y; ++y)
+        for (int x = both.min.x; x <= both.max.x; ++x)
+            values[cells.index(Imath::V2i(x, y))] = depth.at(channel, x, y);
+    Image result(picture.windows, {depth.channels[channel]});
+    std::ranges::copy(fit_depth(picture, cells.array(), values), result.values.begin());
+    return result;
+}
+
+// Gives the depth the frame of the picture, in which it has the same number of pixels.
+void put_in_frame(FlatFile &depth, const PictureChoice &choice, Photograph &picture,
+                  const std::string &path) {
+    const std::string &name = choice.depth_file;
+    const Windows &from = depth.image.windows, &to = picture.image.windows;
+    require_shape(from, name, to, path);
+    if (from.display.size() == to.display.size()) return move_frame(depth.image.windows, to);
+    picture.notes.push_back(fmt::format("depth: {}x{} pixels, fitted to the colours of {}x{}",
+                                        from.display_width(), from.display_height(), to.display_width(),
+                                        to.display_height()));
+    const std::string channel = depth_of(depth.image.channels, choice.depth, name).name;
+    depth.image = fitted(depth.image, find_channel(depth.image.channels, channel), picture.image);
+}
+
 } // namespace
 
 bool is_photograph(const std::string &path, const PictureChoice &choice) {
@@ -126,10 +163,10 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
     const bool shown = has_shown_ending(name);
     FlatFile depth = shown ? flat_file(read_shown_picture(name, true)) : read_depth_file(choice);
     if (shown) require_grey(depth.image, name), turn_depth(depth, name, picture);
-    require_size(depth.image.windows, name, picture.image.windows, display_name(path));
-    move_frame(depth.image.windows, picture.image.windows);
+    const PictureChoice of_depth = shown ? PictureChoice{.depth_file = name} : choice;
+    put_in_frame(depth, of_depth, picture, display_name(path));
     if (shown) depth.image = extended(depth.image, picture.image.windows.data);
-    put_depth_of_file(picture, path, shown ? PictureChoice{.depth_file = name} : choice, depth);
+    put_depth_of_file(picture, path, of_depth, depth);
     return {ldi_of_flat(picture.image, "Z"), picture.header, false, std::move(picture.notes),
             std::move(picture.warnings)};
 }

@@ -114,6 +114,12 @@ def photos():
             "depth": [Photo((255 * (2.5 / picture.channels["Z"].clip(0, 12))).round().astype("u1"))]}
 
 
+def coarse_photos():
+    """The same with a depth of half its width and height."""
+    files = photos()
+    return {**files, "depth": [Photo(files["depth"][0].values[::2, ::2])]}
+
+
 def linear(photo):
     """The same photograph as light."""
     v = photo.values / 255
@@ -159,6 +165,7 @@ DOORS = {
     "gather-ldi": Door(lambda: {"in": [made_of("warp")]}, tool("dof-gather", more=WITH_DEPTH), DEPTH, "deep"),
     "gather-selective": Door(lambda: {"in": [made_of("warp")]}, tool("dof-gather", more=(*FLOAT, "--method", "selective")), kind="deep"),
     "gather-photo": Door(photos, tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
+    "gather-photo-coarse": Door(coarse_photos, tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
     "gather-photo-exr": Door(lambda: {"in": [linear(photos()["in"][0])], "depth": photos()["depth"]},
                              tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
     "gather-depth-file": Door(lambda: {"in": [scene.view().only("RGBA")], "depth": [scene.view().only("Z")]},
@@ -440,7 +447,10 @@ def depth_as_pfm(order):
 
 
 def depth_as_exr(inputs):
-    inputs = of_depths(lambda photo: Picture({"Y": fractions(photo).values}, scene.DISPLAY, scene.DISPLAY))(inputs)
+    def as_exr(photo):
+        frame = (0, 0, photo.values.shape[1] - 1, photo.values.shape[0] - 1)
+        return Picture({"Y": fractions(photo).values}, frame, frame)
+    inputs = of_depths(as_exr)(inputs)
     return inputs.but(more=(*inputs.more, "--disparity"))
 
 
@@ -551,14 +561,14 @@ NEVER = {
     "cut": {"gather-photo-exr": "it is full", "views": "where the centre view has no pixels, rim views add what they see",
             "python": "the same", "plan": "rectangles lie in the centre view's data window", "compare": "compares the reference's data window"},
     "overscan": {"compare": "compares the reference's data window"},
-    "photo-exr": {"gather-photo-exr": "it is one"},
+    "photo-exr": {"gather-photo-exr": "it is one", "gather-photo-coarse": "its cells vary by other sums in linear light"},
     "half": {"gather-ldi": "what ldi-warp writes are no halves", "gather-selective": "what ldi-warp writes are no halves", "gather-photo-exr": "its values are no halves", "cluster": "what ldi-warp writes are no halves"},
     "order": {"flat": "one file", "deep": "one file", "match": "one file", "photo": "one file", "compare": "one is the reference"},
     "frames": {"compare": "measures the change between frames", "match": "one file of keys has all frames", "python": "the caller numbers its frames"},
     "mirrored": {"gather-photo-exr": "its depth is no EXR", "finish": "blocks of 32 pixels from the left tell how certain renders are"},
     "transposed": {"gather-photo-exr": "its depth is no EXR"},
     "light": {"finish-ask": "rays are asked for what a display shows", "warp-denoised": "details count as a display shows them"},
-    "stdin": {"gather-photo": "says that it needs a file", "python": "reads no stream", "pipe": "its requests come there"},
+    "stdin": {"gather-photo": "says that it needs a file", "gather-photo-coarse": "the same", "python": "reads no stream", "pipe": "its requests come there"},
     "fifo": {"pipe": "refuses what is no file", "photo": "says that it needs a file"},
 }
 LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "gather-photo-exr", "pipe", "python", "match"
@@ -569,7 +579,7 @@ KNOWN = {  # faults that are not mended yet: (door, change): why
 }
 BOUNDS = {  # in place of that of the change, with the reason
     "half": {kind: (5e-4, "where they get halves, they write halves: one rounding") for kind in ("views", "two deep", "pipe")},
-    **{name: {door: (2e-6, "OpenImageIO multiplies by a rounded 1/255") for door in ("gather-photo", "gather-photo-exr")} for name in ("tiff", "exif-6-tiff")},
+    **{name: {door: (2e-6, "OpenImageIO multiplies by a rounded 1/255") for door in ("gather-photo", "gather-photo-coarse", "gather-photo-exr")} for name in ("tiff", "exif-6-tiff")},
     "light": {"match": (0.05, "dof-match compares the tones of a display")},
     "order": {"warp-denoised": (1e-6, "other sums"), "finish": (1e-6, "other sums")},
     "cut": {"gather-ldi": (0.01, LAMPS), "match": (0.1, LAMPS), "warp-denoised": (1e-6, "other sums")},

@@ -5,6 +5,7 @@
 #include "support/scratch_folder.h"
 
 #include <ImfStandardAttributes.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,10 +106,51 @@ TEST_F(PhotographFiles, DepthInAnExrMayHaveAnyWindow) {
     }
 }
 
-TEST_F(PhotographFiles, DepthOfAnotherSizeIsRefused) {
-    const std::string picture = shown("picture.png"), small = shown("small.png", windows_of_size(8, 6));
-    EXPECT_NE(what_of<Error>([&] { depths(picture, small); }).find("small.png: is 8x6 pixels large"),
-              std::string::npos);
+// Whatever its file, and wherever the colours of an EXR lie. A cell of it is 4 x 3 pixels.
+TEST_F(PhotographFiles, DepthOfAnotherSizeIsFitted) {
+    const Windows cells = windows_of_size(4, 4);
+    const std::string by_png = shown("small.png", cells), by_tiff = shown("small.tif", cells),
+                      by_exr = exr("small.exr", cells);
+    const std::string photo = shown("picture.png");
+    const std::vector<float> found = depths(photo, by_png);
+    expect_near(depths(photo, by_tiff), found);
+    expect_near(depths(photo, by_exr), found);
+    EXPECT_EQ(std::ranges::count_if(found, [](float d) { return d < 0 || d > 51.0f / 255; }), 0);
+    EXPECT_LT(found.front(), found.back());
+    expect_near(depths(photo, exr("cornered.exr", {{{7, 8}, {10, 11}}, {{7, 8}, {10, 11}}, 1})), found);
+    for (const Windows &windows : windows_of_exr()) {
+        SCOPED_TRACE(size_text(windows.data));
+        const std::vector<float> of_exr = depths(exr("picture.exr", windows), by_png);
+        ASSERT_EQ(of_exr.size(), windows.pixels());
+        EXPECT_LE(std::ranges::max(of_exr), 51.0f / 255 + 1e-6f);
+    }
+    const LdiFile larger =
+        read_photograph(photo, {.depth_file = shown("large.png", windows_of_size(48, 36))});
+    EXPECT_EQ(larger.ldi.z[0], 17.0f / 255); // the pixel in the middle of 3 x 3
+    EXPECT_NE(larger.notes[0].find("48x36 pixels, fitted to the colours of 16x12"), std::string::npos);
+}
+
+// A cell of an EXR beyond its data window has no depth.
+TEST_F(PhotographFiles, SmallDepthInAnExrMayHaveAnyWindow) {
+    const Windows part{{{0, 0}, {3, 2}}, {{-1, 0}, {1, 5}}, 1};
+    const std::vector<float> found = depths(shown("picture.png"), exr("part.exr", part));
+    EXPECT_GT(found.front(), -1e-6f);
+    EXPECT_EQ(found[std::size_t(width - 1)], 0);
+    EXPECT_GT(found[std::size_t((height - 1) * width)], 16.0f / 255);
+}
+
+TEST_F(PhotographFiles, DepthOfAnotherShapeIsRefused) {
+    const std::string picture = shown("picture.png");
+    const auto said = [&](int w, int h) {
+        const std::string name = fmt::format("{}x{}.png", w, h);
+        return what_of<Error>([&] { depths(picture, shown(name.c_str(), windows_of_size(w, h))); });
+    };
+    EXPECT_NE(said(8, 4).find("8x4.png: is 8x4 pixels large"), std::string::npos);
+    EXPECT_NE(said(8, 4).find("--resize 8x6 -o NEW"), std::string::npos);
+    EXPECT_NE(said(6, 8).find("turn it"), std::string::npos);
+    EXPECT_NE(said(12, 16).find("turn it"), std::string::npos);
+    for (const auto &[w, h] : {std::pair(8, 6), {9, 7}, {5, 4}, {15, 12}, {16, 11}, {17, 12}, {1, 1}})
+        EXPECT_EQ(said(w, h), "(nothing was thrown)") << w << ' ' << h;
 }
 
 TEST_F(PhotographFiles, DepthThatWasNotTurnedIsTurned) {
@@ -129,6 +171,10 @@ TEST_F(PhotographFiles, DepthThatWasNotTurnedIsTurned) {
     EXPECT_EQ(read.ldi.z[1], depth.at(0, 0, height - 2));
     ASSERT_EQ(read.warnings.size(), 1u);
     EXPECT_NE(read.warnings[0].find("the depth is turned, too"), std::string::npos);
+    write_shown_picture(folder.file("small.png"), Image(windows_of_size(8, 6), {{"R"}, {"G"}, {"B"}}));
+    const LdiFile fitted = read_photograph(folder.file("a.png"), {.depth_file = folder.file("small.png")});
+    ASSERT_EQ(fitted.warnings.size(), 1u);
+    EXPECT_NE(fitted.warnings[0].find("the depth is turned, too"), std::string::npos);
 }
 
 // JPEG rounds greys. Larger differences between the channels are those of a colour map.

@@ -59,6 +59,16 @@ picture differ out.exr linear.exr R,G,B 0.05 || fail "nothing is blurred"
 exits 0 "$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 0 --focus-pixel 160,120 -o sharp.png
 oiiotool --fail 0.005 photo.jpg sharp.png --diff >stdout || fail "sharp colours do not come back: $(cat stdout)"
 
+# A smaller depth is fitted to the colours, which is better than to enlarge it.
+oiiotool exact8.png --resize:filter=box 80x45 -d uint8 -o quarter.png
+oiiotool quarter.png --resize 320x180 -d uint16 -o enlarged.png
+exits 0 "${photo[@]}" -o out.png
+for depth in quarter enlarged; do
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file $depth.png --blur 6 --focus-pixel 160,120 -o by-$depth.png
+    silent $depth
+done
+within "$(psnr by-quarter.png out.png)" "$(psnr by-enlarged.png out.png)" -0.5 "a depth of a quarter"
+
 # Any format will do.
 oiiotool exact8.png -o depth.pgm
 for depth in exact8.png depth.pgm; do exits 0 "$bin/dof-gather" photo.jpg --depth-file $depth --blur 6 --focus-pixel 160,120 -o ${depth#*.}.exr; done
@@ -66,11 +76,12 @@ picture same pgm.exr png.exr R,G,B 0 || fail "depth.pgm: another picture"
 
 # One line for each mistake.
 oiiotool depth8.png --resize 160x90 -o small.png
+oiiotool depth8.png --resize 160x99 -o short.png
 oiiotool depth8.png --mulc 0 -o even.png
 oiiotool depth8.png --invert -o inverted.png
 wrong() { fails_saying "$1" "$2" "$bin/dof-gather" photo.jpg -o x.png "${@:3}"; }
 sharp=(--focus-pixel 160,120)
-wrong 1 'small.png: is 160x90 pixels large, and photo.jpg is 320x180: .*--resize 320x180' --depth-file small.png --blur 6 "${sharp[@]}"
+wrong 1 'short.png: is 160x99 pixels large, and photo.jpg is 320x180: .*--resize 160x90' --depth-file short.png --blur 6 "${sharp[@]}"
 wrong 1 'photo.jpg: has colours, and depth must be grey' --depth-file photo.jpg --blur 6 "${sharp[@]}"
 wrong 1 'its depth is the same everywhere' --depth-file even.png --blur 6 "${sharp[@]}"
 for file in photo.jpg depth8.png; do head -c $(($(stat -c %s $file) / 2)) $file >half.${file#*.}; done

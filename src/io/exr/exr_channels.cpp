@@ -314,9 +314,6 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
     return (asked.empty() ? by_rank(channels) : named(channels, asked)) != npos;
 }
 
-namespace {
-
-// The depth channel. A file that holds only depth may give it any name: Y, or a grey R, G and B.
 DepthChannel depth_of(const std::vector<Channel> &channels, const std::string &asked,
                       const std::string &path) {
     if (asked.empty() && !has_depth_channel(channels, asked)) {
@@ -326,6 +323,8 @@ DepthChannel depth_of(const std::vector<Channel> &channels, const std::string &a
     }
     return find_depth_channel(channels, asked, path);
 }
+
+namespace {
 
 // Adds the plane Z to the picture, all 0.
 std::span<float> new_depth(Image &image) {

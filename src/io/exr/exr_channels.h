@@ -113,6 +113,10 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
 // How clearly the name means depth: 0 for Z, more for less clear names; empty if it does not.
 std::optional<int> depth_rank(std::string_view name);
 
+// The depth channel. A file that holds only depth may give it any name: Y, or a grey R, G and B.
+DepthChannel depth_of(const std::vector<Channel> &channels, const std::string &asked,
+                      const std::string &path);
+
 // Reads choice.depth_file, an EXR file.
 FlatFile read_depth_file(const PictureChoice &choice);
 // Puts the depth of that file into the picture as Z, in place of any depth there. Notes and warnings name what it read.
