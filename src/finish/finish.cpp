@@ -6,6 +6,7 @@
 #include "finish/window_means.h"
 
 #include <memory>
+#include <numeric>
 
 namespace sparselens {
 
@@ -21,15 +22,17 @@ Halves regressed(const LayerToFinish &layer, const Halves &rays, const Values &w
     return predicted;
 }
 
-// Keeps pixels on which picture and renders agree: nothing around an object stays nothing, however far windows reach,
-// and coverage of 1 stays 1.
+// Keeps pixels on which picture and renders agree, such as coverage of 1. Few rays may miss a small lamp in a pixel, so
+// the pixels around it must agree, too. Nothing around an object stays nothing, however far windows reach.
 void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
-    for (std::size_t i = 0; i < layer.grid.size(); ++i) {
-        bool agreed = true;
+    Values agreed(layer.grid.size(), 1.0f);
+    for (std::size_t i = 0; i < agreed.size(); ++i)
         for (std::size_t c = 0; c < layer.gathered.size(); ++c)
-            agreed &=
-                layer.rays[0][c][i] == layer.gathered[c][i] && layer.rays[1][c][i] == layer.gathered[c][i];
-        if (!agreed) continue;
+            if (layer.rays[0][c][i] != layer.gathered[c][i] || layer.rays[1][c][i] != layer.gathered[c][i])
+                agreed[i] = 0;
+    box_mean(agreed, layer.grid, FinishTuning::agreed_radius);
+    for (std::size_t i = 0; i < layer.grid.size(); ++i) {
+        if (agreed[i] < 1 && (layer.nothing.empty() || !layer.nothing[i])) continue;
         for (Colours *colours : {&finished.picture, &finished.of_one[0], &finished.of_one[1]})
             for (std::size_t c = 0; c < colours->size(); ++c) (*colours)[c][i] = layer.gathered[c][i];
         finished.kept[i] = 1;
@@ -39,7 +42,8 @@ void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
 } // namespace
 
 FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
-    const RayEvidence evidence{layer.rays, layer.samples, layer.grid};
+    const float exposure = exposure_of(layer.gathered);
+    const RayEvidence evidence{layer.rays, layer.samples, layer.grid, exposure};
     FinishedLayer finished;
     finished.kept.assign(layer.grid.size(), 1.0f);
     Trio pictures{layer.gathered, layer.gathered, layer.gathered};
@@ -47,22 +51,17 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
         blend_in(pictures, candidate, evidence, finished.kept);
         progress.advance();
     };
-    progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
+    progress.start("finish", 2 * layer.given.size() + FinishTuning::regression_windows.size() + 3);
     for (const Halves &given : layer.given) offer(given);
-    // Where the gathered picture is wrong nearly everywhere, single classes prove too little: all cells together prove
-    // that the picture is not worse than one that is given, before and after the other candidates.
-    const auto offer_given = [&] {
-        for (const Halves &given : layer.given)
-            blend_in(pictures, given, evidence, finished.kept, Among::whole_picture);
-    };
-    offer_given();
     const Halves &rays = layer.averaged[0].empty() ? layer.rays : layer.averaged;
-    const Values weights = tone_weights(layer.gathered);
+    const Values weights = tone_weights(layer.gathered, exposure);
     for (const FinishTuning::Window &window : FinishTuning::regression_windows)
         offer(regressed(layer, rays, weights, window));
     offer(rays);
-    offer(means_of_similar(rays, pictures[2], layer.grid));
-    offer_given();
+    offer(means_of_similar(rays, pictures[2], layer.grid, exposure));
+    // Once more, where the others made it worse.
+    offer(rays);
+    for (const Halves &given : layer.given) offer(given);
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
     keep_agreed(layer, finished);
@@ -71,8 +70,8 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
 
 namespace {
 
-// Keeps the prior above 0 where the guide is black.
-constexpr float least_square = 1e-4f;
+// Keeps the prior above 0 where the whole guide is black.
+constexpr float least_square = 1e-30f;
 
 // The mean of `of(i)` over soft windows around cells.
 template <typename Of>
@@ -97,10 +96,10 @@ Values averaged(const Cells &cells, int radius, const Of &of) {
 
 } // namespace
 
-Values tone_weights(const Colours &guide) {
+Values tone_weights(const Colours &guide, float exposure) {
     Values weights(guide.front().size());
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const float reciprocal = 1 / (1 + brightness(guide, i));
+        const float reciprocal = 1 / (1 + exposure * brightness(guide, i));
         weights[i] = reciprocal * reciprocal;
     }
     return weights;
@@ -112,6 +111,8 @@ Regression::Regression(std::span<const float> guide, std::span<const float> weig
     weight_ = averaged(cells_, radius_, [&](std::size_t i) { return weights[i]; });
     mean_ = averaged(cells_, radius_, [&](std::size_t i) { return weights[i] * guide[i]; });
     variance_ = averaged(cells_, radius_, [&](std::size_t i) { return weights[i] * guide[i] * guide[i]; });
+    square_ = float(std::accumulate(variance_.begin(), variance_.end(), 0.0) /
+                    std::accumulate(weight_.begin(), weight_.end(), 0.0));
     for (std::size_t i = 0; i < mean_.size(); ++i) {
         mean_[i] /= weight_[i];
         variance_[i] = std::max(variance_[i] / weight_[i] - mean_[i] * mean_[i], 0.0f);
@@ -131,7 +132,8 @@ Values Regression::of(std::span<const float> rays) const {
     const auto of_all = variances > 0 ? float(covariances / variances) : 0.0f;
     for (std::size_t i = 0; i < level.size(); ++i) {
         const float y = level[i] / weight_[i], covariance = slope[i] / weight_[i] - mean_[i] * y;
-        const float prior = FinishTuning::regression_prior * (least_square + mean_[i] * mean_[i]);
+        const float prior = FinishTuning::regression_prior *
+                            (FinishTuning::regression_floor * square_ + mean_[i] * mean_[i] + least_square);
         slope[i] = (covariance + prior * of_all) / (variance_[i] + prior);
         level[i] = y - slope[i] * mean_[i];
     }
@@ -155,10 +157,10 @@ constexpr int beside = reach + 1;      // pixels loaded on each side of it
 constexpr int stride = columns + 2 * beside, size = (rows + 2 * beside) * stride;
 constexpr std::size_t most_channels = 3;
 
-Colours tone_mapped_of(const Colours &guide) {
+Colours tone_mapped_of(const Colours &guide, float exposure) {
     Colours mapped = guide;
     for (Values &channel : mapped)
-        for (float &v : channel) v = std::max(v, 0.0f) / (1 + std::max(v, 0.0f));
+        for (float &v : channel) v = positive(exposure * v) / (1 + positive(exposure * v));
     return mapped;
 }
 
@@ -269,9 +271,9 @@ void store(const Tile &tile, const PositionBox &box, const ArrayGrid &grid, Halv
 
 } // namespace
 
-Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid) {
-    const Colours mapped = tone_mapped_of(guide);
-    const Values weights = tone_weights(guide);
+Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid, float exposure) {
+    const Colours mapped = tone_mapped_of(guide, exposure);
+    const Values weights = tone_weights(guide, exposure);
     const Colours unset(guide.size(), Values(grid.size()));
     Halves means{unset, unset};
     const Tiles tiles(grid.box(), columns, rows);

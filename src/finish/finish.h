@@ -24,6 +24,8 @@ struct LayerToFinish {
     Halves rays;
     RayCounts samples = {};
     std::vector<Halves> given = {}; // for each render: its denoised version, or the same picture twice
+    std::vector<bool> nothing =
+        {};               // pixels without light and coverage in all pictures, which stay so; or empty
     Halves averaged = {}; // the rays with those of frames around (frames_around.h), for candidates; or empty
 };
 
@@ -43,8 +45,8 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress);
 //
 // Lines are fitted for cells (window_means.h) and interpolated.
 
-// The weight of each pixel of a guide: 1 / (1 + brightness)^2.
-Values tone_weights(const Colours &guide);
+// The weight of each pixel of a guide: 1 / (1 + brightness)^2, exposed.
+Values tone_weights(const Colours &guide, float exposure = 1);
 
 class Regression {
 public:
@@ -60,12 +62,13 @@ private:
     Cells cells_;
     int radius_;                      // cells
     Values weight_, mean_, variance_; // of each window: its weight, and the guide's mean and variance
+    float square_ = 0;                // of the guide, the weighted mean over the picture
 };
 
 // Means of rays over similar pixels nearby (non-local means: A. Buades, B. Coll, J. Morel, 2005). The guide decides
 // which pixels are similar, so the means are linear in the rays. They follow edges of any form that the guide shows.
 
 // The means for both renders. `guide` and the renders have the same channels.
-Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid);
+Halves means_of_similar(const Halves &rays, const Colours &guide, const ArrayGrid &grid, float exposure = 1);
 
 } // namespace sparselens

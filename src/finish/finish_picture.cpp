@@ -174,6 +174,18 @@ TwoHalves::TwoHalves(const Image &gathered)
             lit_[i] = lit_[i] || gathered.plane(c)[i] != 0;
 }
 
+std::vector<bool> TwoHalves::without_light() const {
+    std::vector<bool> found;
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+        if (has_[c] && colour_part(channels_[c]) == ColourPart::coverage) found.assign(lit_.size(), true);
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = !lit_[i] && has_both(i);
+    for (const std::vector<Values> &half : sums_)
+        for (const Values &sum : half)
+            for (std::size_t i = 0; i < sum.size() && i < found.size(); ++i)
+                if (sum[i] != 0) found[i] = false;
+    return found;
+}
+
 Imath::Box2i TwoHalves::shown(const Image &image) const {
     const Grid own = image.windows.grid();
     Imath::Box2i box;
@@ -299,6 +311,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
             "no pixel has two renders: give two or more with different seeds, whose values are at most "
             "1e8");
     FinishedPicture finished;
+    const std::vector<bool> empty = picture.rays.without_light();
     const auto colours = find_rgb(picture.gathered.channels);
     if (!all_found(colours) ||
         !std::ranges::all_of(colours, [&](std::size_t c) { return picture.rays.has(c); }))
@@ -310,6 +323,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
             continue;
         }
         LayerToFinish layer = layer_of(picture, channels);
+        layer.nothing = empty;
         const bool beauty = std::ranges::find(channels, colours[0]) != channels.end();
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {

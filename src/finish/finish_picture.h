@@ -71,6 +71,8 @@ public:
 
     RayCounts samples() const;   // pixels that lack a half count as the mean of the others
     std::size_t missing() const; // pixels of the display window that stay as gathered
+    // The pixels without light and coverage in the gathered picture and both halves; empty if coverage is not known.
+    std::vector<bool> without_light() const;
     // Moves out the planes of a channel of the gathered picture, for both halves; empty if a render lacks it.
     std::array<Values, 2> take(std::size_t channel);
     bool has(std::size_t channel) const { return has_[channel]; }

@@ -30,9 +30,10 @@ struct Compared {
 Compared compared(const FrameOfLayer &frame, const FrameOfLayer &other, const ArrayGrid &grid) {
     const Values zeros(grid.size(), 0.0f);
     Compared found{zeros, zeros, zeros, zeros};
+    const float exposure = exposure_of(frame.gathered);
     parallel_ranges(grid.size(), pixels_at_once, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const float visible = seen(brightness(frame.gathered, i));
+            const float visible = seen(exposure * brightness(frame.gathered, i));
             for (std::size_t c = 0; c < frame.gathered.size(); ++c) {
                 const float first = residual(frame, 0, c, i), second = residual(frame, 1, c, i);
                 const float of_first = residual(other, 0, c, i), of_second = residual(other, 1, c, i);

@@ -17,6 +17,10 @@ struct FinishTuning {
     static constexpr std::array<Window, 3> regression_windows{{{2, 4}, {2, 2}, {1, 1}}};
     // How strongly a slope is drawn towards that of the whole picture, as a share of the squared mean of the guide.
     static constexpr float regression_prior = 0.1f;
+    // Where the guide is black: as a share of its mean square in the whole picture.
+    static constexpr float regression_floor = 1e-3f;
+    // When a picture is exposed for the tone curve, a pixel counts for at most this many times the mean of lit pixels.
+    static constexpr double most_over_mean = 16;
 
     // The mean over similar pixels: the search distance, pixels. On mirror it gains 1.4 dB.
     static constexpr int similar_reach = 4;
@@ -25,24 +29,25 @@ struct FinishTuning {
 
     // Side of the cells for which trust is computed, pixels. The values below are in cells.
     static constexpr int trust_cell = 2;
-    // Radius of the window in which the energy of a candidate is compared with that of its noise.
-    static constexpr int energy_radius = 1;
-    // The ring in which the other render confirms a candidate: the half sides of its outer and inner square. The inner
-    // square is left out, so that the noise of a pixel cannot confirm itself.
-    static constexpr int ring_outer = 5, ring_inner = 1;
+    // The squares that test a candidate: cells on each side of the middle one. A smaller square changes the share of a
+    // larger one by what exceeds this many standard deviations.
+    static constexpr std::array<int, 4> square_radii{31, 15, 7, 3};
+    static constexpr double square_deviations = 1.5;
     // Radius of the window over which trust is smoothed.
     static constexpr int trust_radius = 1;
-    // How much more the noise of a candidate counts than other errors, because noise sparkles in a sequence. In focus
-    // pulls of fence and mirror (80 rays), the values 0, 1, 2 and 3 leave 1776, 1180, 827, 606 and 2325, 1624, 1187,
-    // 901 pixels that jump by .02, at 44.9, 44.7, 44.6, 44.5 and 48.7, 48.7, 48.5, 48.4 dB.
-    static constexpr double noise_costs = 2;
-    // Classes of pixels for each of the two measures of trust.
+    // How much more noise of the changed picture counts than other errors, because noise sparkles in a sequence. With 80
+    // rays of two seeds at 160x90, the values .5, .75, 1 and 2 leave 181, 157, 146 and 109 pixels of fence, and 105, 68, 45
+    // and 14 of mirror, that jump by .02, at 39.3, 39.2, 39.0 and 38.6 dB, and 44.1, 43.8, 43.6 and 42.8 dB.
+    static constexpr double noise_costs = 0.75;
+    // Radius of the window in which pixels must agree to stay as gathered, pixels.
+    static constexpr int agreed_radius = 2;
+    // Classes of pixels by how much the gathered picture has moved (frames_around.h).
     static constexpr int classes = 12;
     // A candidate is not believed if it gains less over the whole picture than this many standard deviations of the
     // gain. With 80 rays, 0, 1 and 2 lose .19, .13, .01 dB of the gathered picture on lamps, and .20, .17, .10 dB on
     // reliefs before lamps; fence has 46.9, 46.9, 46.8 and grass 45.0 dB.
     static constexpr double proof_deviations = 2;
-    // Side of the blocks whose spread shows how certain the trust in a class is, pixels.
+    // Side of the blocks whose spread shows how certain a mean is, pixels.
     static constexpr int block_px = 32;
 
     // Two renders have the same noise if they are equal in this share of the pixels in which light varies (same_noise),

@@ -10,6 +10,22 @@
 
 namespace sparselens {
 
+float exposure_of(const Colours &picture) {
+    const auto mean_of_lit = [&](const auto &of) {
+        double sum = 0, lit = 0;
+        for (std::size_t i = 0; i < picture[0].size(); ++i) {
+            const double light = double(brightness(picture, i));
+            sum += of(light);
+            lit += light > 0;
+        }
+        return sum / std::max(lit, 1.0);
+    };
+    const double most = FinishTuning::most_over_mean * mean_of_lit([](double light) { return light; });
+    const double square =
+        mean_of_lit([&](double light) { return std::min(light, most) * std::min(light, most); });
+    return square > 1e-30 ? float(1 / std::sqrt(square)) : 1;
+}
+
 namespace {
 
 // Rows or columns that are averaged side by side.
@@ -186,74 +202,6 @@ float Classes::place_of(float value) const {
     const float bin = bin_of(value);
     const std::size_t i = std::min(std::size_t(bin), bins - 1);
     return places_[i] + (bin - float(i)) * (places_[i + 1] - places_[i]);
-}
-
-namespace {
-
-constexpr std::size_t classes = classes_per_measure;
-
-// Neighbouring classes of the table are alike, so each class borrows from them.
-void soften(ClassTable &table) {
-    constexpr double side = 0.21, middle = 1 - 2 * side; // a Gaussian of 0.7 classes
-    const auto along = [&](std::size_t step, std::size_t other) {
-        for (std::size_t line = 0; line < classes; ++line) {
-            std::array<double, classes> values;
-            for (std::size_t i = 0; i < classes; ++i) values[i] = table[line * other + i * step];
-            for (std::size_t i = 0; i < classes; ++i)
-                table[line * other + i * step] =
-                    side * (values[i == 0 ? 0 : i - 1] + values[std::min(i + 1, classes - 1)]) +
-                    middle * values[i];
-        }
-    };
-    along(1, classes);
-    along(classes, 1);
-}
-
-// How far all classes together prove that the shares fit better than none, by the variance between blocks: 0 to 1.
-double proof_of(const Shares &shares, const ClassTable &answers, const std::vector<ClassSums> &blocks) {
-    double gain = 0, variance = 0;
-    for (std::size_t i = 0; i < shares.size(); ++i) gain += double(shares[i]) * answers[i];
-    for (const ClassSums &block : blocks) {
-        double left = 0;
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const auto share = double(shares[i]);
-            left += share * (block.answers[i] - share * block.energies[i]);
-            variance += share * share * block.unseen[i];
-        }
-        variance += left * left;
-    }
-    if (!(gain > 0)) return 0;
-    const double deviations = FinishTuning::proof_deviations / gain;
-    return std::max(1 - deviations * deviations * variance, 0.0);
-}
-
-} // namespace
-
-Shares shares_of(std::vector<ClassSums> blocks) {
-    ClassTable answers{}, energies{}, variance{};
-    for (ClassSums &block : blocks) {
-        soften(block.answers);
-        soften(block.energies);
-        soften(block.unseen);
-        for (std::size_t i = 0; i < answers.size(); ++i) {
-            answers[i] += block.answers[i];
-            energies[i] += block.energies[i];
-            variance[i] += block.unseen[i];
-        }
-    }
-    Shares shares{};
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        if (!(answers[i] > 0) || !(energies[i] > 0)) continue;
-        const double share = answers[i] / energies[i];
-        for (const ClassSums &block : blocks) {
-            const double left = block.answers[i] - share * block.energies[i];
-            variance[i] += left * left;
-        }
-        shares[i] = float(std::min(share, 1.0) * std::max(1 - variance[i] / (answers[i] * answers[i]), 0.0));
-    }
-    const double proven = proof_of(shares, answers, blocks);
-    for (float &share : shares) share *= float(proven);
-    return shares;
 }
 
 } // namespace sparselens

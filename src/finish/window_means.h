@@ -37,7 +37,11 @@ struct RayCounts {
 // max(v, 0), exactly, without a branch, so that compilers can process several values at once.
 inline float positive(float v) { return (v + std::abs(v)) / 2; }
 
-// How visible a change is in a value as bright as `v`: the squared slope of the tone curve v / (1 + v).
+// By how much a picture is brightened before a tone curve judges it: the root mean square of its lit pixels becomes 1. No
+// pixel counts for more than 16 times the mean, so that a lamp hardly darkens the rest. Twice the light gives half.
+float exposure_of(const Colours &picture);
+
+// How visible a change is in a value as bright as `v`, exposed: the squared slope of the tone curve v / (1 + v).
 inline float seen(float v) {
     const float reciprocal = 1 / (1 + positive(v));
     return reciprocal * reciprocal * reciprocal * reciprocal;
@@ -94,8 +98,7 @@ private:
     std::size_t side_;
 };
 
-// Classes of equal weight along a measure, and the continuous place of a value in them; and the share of a candidate
-// that is accepted in each.
+// Classes of equal weight along a measure, and the continuous place of a value in them.
 class Classes {
 public:
     // For values in [least, most]; other values count as the nearer limit.
@@ -117,34 +120,5 @@ private:
     std::vector<std::array<double, 2>> bins_; // pixels, weights
     std::vector<float> places_;               // of the beginnings of bins, and of the last end
 };
-
-inline constexpr std::size_t classes_per_measure = FinishTuning::classes; // of each of the two measures
-inline constexpr std::size_t table_size = classes_per_measure * classes_per_measure;
-using ClassTable = std::array<double, table_size>;
-using Shares = std::array<float, table_size>;
-
-// Sums over the cells of each class, in one block of the picture.
-struct ClassSums {
-    ClassTable answers{};  // the part of the change that the test confirms
-    ClassTable energies{}; // energy of the change, plus the cost of its noise
-    ClassTable unseen{};   // variance of the answers, in addition to that between blocks
-};
-
-// The share of a candidate that is accepted in each class of cells, from the evidence of both renders in all its cells:
-// the share that fits the answers best, drawn towards 0 by its own variance between blocks (W. James, C. Stein, 1961).
-// All shares are then drawn towards 0 by the variance of all classes together, because each class may believe a few
-// bright events by chance.
-Shares shares_of(std::vector<ClassSums> blocks);
-
-// Interpolates linearly between the middles of classes.
-inline float share_at(const Shares &shares, float across, float down) {
-    constexpr auto last = float(classes_per_measure - 1);
-    const float i = std::clamp(across - 0.5f, 0.0f, last), j = std::clamp(down - 0.5f, 0.0f, last);
-    const std::size_t column = std::min(std::size_t(i), classes_per_measure - 2),
-                      row = std::min(std::size_t(j), classes_per_measure - 2);
-    const float x = i - float(column), y = j - float(row);
-    const float *at = shares.data() + row * classes_per_measure + column, *below = at + classes_per_measure;
-    return (1 - y) * ((1 - x) * at[0] + x * at[1]) + y * ((1 - x) * below[0] + x * below[1]);
-}
 
 } // namespace sparselens

@@ -56,18 +56,5 @@ TEST(Classes, OneValueAndNoneAreFine) {
         }
 }
 
-// Two blocks of one class. If one shows three times as much as the other, all together prove little: by its own variance
-// alone, the class would have .875.
-TEST(Shares, AllClassesTogetherMustProveTheGain) {
-    const auto share = [](double first, double second) {
-        std::vector<ClassSums> blocks(2);
-        blocks[0].answers.fill(first), blocks[1].answers.fill(second);
-        for (ClassSums &block : blocks) block.energies.fill(2);
-        return double(shares_of(std::move(blocks))[classes_per_measure + 1]);
-    };
-    EXPECT_NEAR(share(2, 2), 1, 1e-6);
-    EXPECT_NEAR(share(3, 1), 0.875 * (1 - 4 * (1.09375 * 1.09375 + 0.65625 * 0.65625) / (3.5 * 3.5)), 1e-3);
-}
-
 } // namespace
 } // namespace sparselens

@@ -51,13 +51,13 @@ TEST(Trust, RaysDoNotConfirmThemselves) {
     EXPECT_GT(mean(believed(layer, layer.rays).kept), 0.99);
 }
 
-// The last channel of a black picture after it was offered a candidate. All are the same in all pixels, and so small that
-// all cells are of one class: the picture is what fits both renders best.
+// The last channel of a black picture after it was offered a candidate. All are the same in all pixels, and there are many:
+// the picture is what fits both renders best.
 constexpr float unit = 1.1e-6f;
 using Colour = std::array<float, 3>;
 float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2> &rays,
               const std::array<double, 2> &samples) {
-    const ArrayGrid even(64, 32);
+    const ArrayGrid even(128, 64);
     Halves offered, halves;
     for (std::size_t k = 0; k < 2; ++k)
         for (const float value : candidate[k]) {
@@ -68,7 +68,7 @@ float blended(const std::array<Colour, 2> &candidate, const std::array<float, 2>
     Trio pictures{black, black, black};
     Values kept(even.size(), 1.0f);
     blend_in(pictures, offered, {halves, samples, even}, kept);
-    return pictures[2][2][even.index(Position(32, 16))] / unit;
+    return pictures[2][2][even.index(Position(64, 32))] / unit;
 }
 
 TEST(Trust, RendersTestByTheirSamples) {
@@ -96,6 +96,19 @@ TEST(Trust, UnequalRendersCostTheNoiseOfBoth) {
         for (const auto &samples : {std::array<double, 2>{3, 1}, {1, 3}})
             EXPECT_NEAR(blended({{{more, less, 1}, {less, more, 1}}}, {1, 1}, samples), 3 / energy, 1e-3);
     }
+}
+
+// Pictures of noise d and -d are offered 0, and the renders confirm half of that: each change has the energy d^2, and takes
+// away noise of 2 d^2.
+TEST(Trust, NoiseThatIsTakenAwayCounts) {
+    const ArrayGrid even(128, 64);
+    const auto same = [&](float value) { return Colours(1, Values(even.size(), unit * value)); };
+    Trio pictures{same(1), same(-1), same(0)};
+    const Halves rays{same(-0.5f), same(0.5f)};
+    Values kept(even.size(), 1.0f);
+    blend_in(pictures, {same(0), same(0)}, {rays, std::array<double, 2>{1, 1}, even}, kept);
+    const double costs = 2 * FinishTuning::noise_costs;
+    EXPECT_NEAR(1 - pictures[0][0][even.index(Position(64, 32))] / unit, (0.5 + costs) / (1 + costs), 1e-3);
 }
 
 // Black pixels, for which the first render, of three times the samples, offers 1.
@@ -153,7 +166,9 @@ TEST(Trust, ManySamplesProveMore) {
     };
     const double untold = decibels_of_quarter(finished(layer).picture);
     layer.samples = counts;
-    EXPECT_GT(decibels_of_quarter(finished(layer).picture), untold + 4);
+    const double told = decibels_of_quarter(finished(layer).picture);
+    EXPECT_GT(told, untold + 2.5);
+    EXPECT_GT(told, 48);
 }
 
 TEST(Trust, ThreadsDoNotMatter) {

@@ -24,9 +24,13 @@ TEST(ErrorEstimate, LiesNearTheTrueError) {
             const FinishedLayer result = finished(layer);
             const ErrorEstimate error = estimated(layer, result);
             const auto known = decibels(error);
-            ASSERT_TRUE(known) << samples[0] << ' ' << blur;
             const double is = decibels_of(result.picture, truth);
-            EXPECT_NEAR(*known, is, 2) << samples[0] << ' ' << blur;
+            // Renders may be unable to tell the small error of a good picture: then it lies within the uncertainty.
+            ASSERT_TRUE(known || blur == 1) << samples[0] << ' ' << blur;
+            if (known)
+                EXPECT_NEAR(*known, is, 2) << samples[0] << ' ' << blur;
+            else
+                EXPECT_NEAR(error.mean, std::pow(10, -is / 10), 2 * error.standard_deviation);
             // At most 1 dB too good, and by its standard deviation.
             EXPECT_LT(-10 * std::log10(error.mean + error.standard_deviation), is + 1)
                 << samples[0] << ' ' << blur;

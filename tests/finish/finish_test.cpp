@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace sparselens {
 namespace {
@@ -50,6 +51,46 @@ TEST(Finish, AFireflyOfOneRenderIsNotBelieved) {
     for (Values &channel : layer.rays[0]) channel[grid.index(Position(100, 70))] = 500;
     const FinishedLayer result = finished(layer);
     for (const Values &channel : result.picture) EXPECT_LT(channel[grid.index(Position(100, 70))], 2);
+}
+
+TEST(Finish, TwiceTheLightGivesExactlyTwice) {
+    LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 2), {16, 16});
+    layer.given = {{blurred(layer.rays[0], grid, 1), blurred(layer.rays[1], grid, 1)}};
+    const FinishedLayer once = finished(layer);
+    for (Halves *halves : {&layer.rays, &layer.given[0]})
+        for (Colours &half : *halves)
+            for (Values &channel : half)
+                for (float &v : channel) v *= 2;
+    for (Values &channel : layer.gathered)
+        for (float &v : channel) v *= 2;
+    const FinishedLayer twice = finished(layer);
+    EXPECT_GT(decibels_of(once.picture, truth), decibels_of(blurred(truth, grid, 2), truth) + 1);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            ASSERT_EQ(twice.picture[c][i], 2 * once.picture[c][i]) << i;
+}
+
+// A lamp's disc before a sky without noise: most pixels of both renders miss the lamp, and equal the gathered picture.
+TEST(Finish, FewRaysOfALampAreNoSieve) {
+    const Colours sky(3, Values(grid.size(), 0.2f));
+    LayerToFinish layer{grid, sky, {sky, sky}, std::array<double, 2>{16, 16}};
+    const auto in_disc = [](std::size_t i) {
+        return std::hypot(grid.position(i).column - 80, grid.position(i).row - 45) < 12;
+    };
+    std::mt19937 random(1);
+    for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            if (in_disc(i) && random() % 2 == 0)
+                for (Values &channel : layer.rays[k]) channel[i] = 0.6f;
+    const FinishedLayer result = finished(layer);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const Position at = grid.position(i);
+        if (in_disc(i)) {
+            EXPECT_NE(result.picture[1][i], 0.2f) << i;
+        } else if (std::hypot(at.column - 80, at.row - 45) > 16) {
+            EXPECT_EQ(result.picture[1][i], 0.2f) << i;
+        }
+    }
 }
 
 TEST(Finish, AnyFiniteValueGivesFiniteOnes) {

@@ -62,9 +62,8 @@ finish/window_means.h run_length
 finish/window_means.cpp bins
 finish/finish_picture.cpp largest
 finish/finish.cpp least_square
-finish/window_means.cpp side
 finish/finish.cpp columns most_channels rows
-finish/cross_validation.cpp grain largest_confirmation largest_energy_ratio least_energy
+finish/cross_validation.cpp grain
 finish/window_means.cpp lanes
 '
 
