@@ -37,6 +37,26 @@ TEST(ErrorEstimate, LiesNearTheTrueError) {
         }
 }
 
+TEST(ErrorEstimate, IsUnknownWithinTwoDeviations) {
+    ErrorEstimate error;
+    error.mean = 1e-4;
+    error.standard_deviation = 0.49e-4;
+    ASSERT_TRUE(decibels(error));
+    EXPECT_NEAR(*decibels(error), 40, 1e-9);
+    error.standard_deviation = 0.51e-4;
+    EXPECT_FALSE(decibels(error));
+}
+
+// From no gain of a second render to one that is larger than noise can have.
+TEST(ErrorEstimate, FallsByAQuarterToOne) {
+    ErrorEstimate error;
+    error.mean = 1e-4;
+    for (const auto &[times, fall] : {std::array{1.0, 0.25}, {std::sqrt(2), 0.5}, {2.0, 1.0}, {100.0, 1.0}}) {
+        error.of_one = times * error.mean;
+        EXPECT_NEAR(fall_of(error, {16, 16}), fall, 1e-9) << times;
+    }
+}
+
 // Both renders are exact, so the difference of the pictures makes the error: half of its square in a picture of one
 // render, n m / (n + m)^2 of it in the picture of both.
 TEST(ErrorEstimate, TheNoiseThatIsLeftDependsOnTheSamples) {
