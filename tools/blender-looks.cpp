@@ -1,6 +1,5 @@
 // blender-looks: prints the looks that the panel of the Blender add-on has, as JSON: its looks.json. A build runs it and
 // installs what it prints; it is not installed itself.
-#include "chain/parameters.h"
 #include "viewing/sequence.h"
 
 #include <nlohmann/json.hpp>

@@ -7,7 +7,6 @@
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 using namespace sparselens;
 

@@ -4,7 +4,6 @@
 #include "lab/trace/sampling.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace sparselens::lab {
 

@@ -7,7 +7,6 @@
 #include "lens/focus_field.h"
 
 #include <array>
-#include <span>
 
 namespace sparselens::lab {
 

@@ -3,7 +3,6 @@
 
 #include "lab/trace/rigid_shapes.h"
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -4,9 +4,6 @@
 #include "host_image.h"
 #include "place.h"
 
-#include <nlohmann/json.hpp>
-
-#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>

@@ -7,7 +7,6 @@
 #include "io/usd/usd_views.h"
 
 #include <optional>
-#include <string>
 
 namespace sparselens {
 

@@ -10,7 +10,6 @@
 
 #include <cassert>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace sparselens {

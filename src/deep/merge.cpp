@@ -8,7 +8,6 @@
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sparselens {
 

@@ -6,10 +6,6 @@
 #include "../deep/packed_rows.h"
 #include "gather_picture.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 namespace sparselens {
 
 // The height of bands. A band is as high as fits into `memory` (bytes) with its samples and the data prepared from

@@ -14,7 +14,6 @@
 #include <functional>
 #include <string>
 #include <variant>
-#include <vector>
 
 namespace sparselens {
 

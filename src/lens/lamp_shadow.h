@@ -14,9 +14,7 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace sparselens {

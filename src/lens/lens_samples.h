@@ -8,7 +8,6 @@
 
 #include <Imath/ImathVec.h>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

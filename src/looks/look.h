@@ -4,7 +4,6 @@
 #include "../lens/lens_looks.h"
 #include "../lens/thin_lens.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -13,7 +13,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace sparselens {
 

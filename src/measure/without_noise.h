@@ -6,7 +6,6 @@
 #include "../base/image.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 

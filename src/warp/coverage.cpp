@@ -6,7 +6,6 @@
 #include "deep/build.h"
 #include "kernels/warp_rules.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

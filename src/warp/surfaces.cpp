@@ -7,7 +7,6 @@
 #include "warp/coverage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <tuple>
 

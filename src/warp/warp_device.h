@@ -8,7 +8,6 @@
 #include "lens/thin_lens.h"
 #include "warp/images/patch_comparison.h"
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>

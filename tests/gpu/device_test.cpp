@@ -2,7 +2,6 @@
 #include "gpu/warp/prefix_sums.h"
 
 #include <numeric>
-#include <random>
 
 namespace sparselens::gpu {
 namespace {

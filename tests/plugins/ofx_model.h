@@ -5,7 +5,6 @@
 #include "../../plugins/openfx/ofx.h"
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>

@@ -2,7 +2,6 @@
 #include "ofx_model.h"
 
 #include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <type_traits>
 

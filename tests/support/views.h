@@ -4,7 +4,6 @@
 #include "view/view.h"
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace sparselens {

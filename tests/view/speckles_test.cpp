@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <vector>
-
 namespace sparselens {
 namespace {
 

@@ -5,7 +5,6 @@
 #include "base/progress.h"
 #include "chain/notices.h"
 #include "harness/commands/cli.h"
-#include "harness/progress_lines.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

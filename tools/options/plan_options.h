@@ -4,7 +4,6 @@
 #include "chain/plan_views.h"
 #include "chain/stated_camera.h"
 #include "harness/commands/cli.h"
-#include "options/picture_options.h"
 
 #include <optional>
 #include <string>

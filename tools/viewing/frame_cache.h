@@ -5,7 +5,6 @@
 #include "deep/packed_rows.h"
 #include "io/display/colour.h"
 #include "io/open_ldi.h"
-#include "options/gather_options.h"
 #include "viewing/page_request.h"
 
 #include <condition_variable>

@@ -13,9 +13,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <string_view>
-#include <system_error>
 
 namespace sparselens {
 

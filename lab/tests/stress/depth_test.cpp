@@ -2,7 +2,6 @@
 #include "deep/sanitize.h"
 #include "lab/tests/stress/stress.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -7,7 +7,6 @@
 #include "view/flat_pixels.h"
 #include "view/view.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>

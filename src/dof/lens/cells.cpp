@@ -4,7 +4,6 @@
 #include "dof/lens/lens_gather.h"
 #include "dof/tuning.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace sparselens {

@@ -11,7 +11,6 @@
 #include "lens/thin_lens.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>

@@ -35,7 +35,6 @@
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -6,7 +6,6 @@
 #include "kernels/lens_rules.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

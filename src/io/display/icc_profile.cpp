@@ -3,7 +3,6 @@
 #include <Imath/ImathMatrix.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -14,7 +14,6 @@
 #include <ImfPartType.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <numeric>

@@ -17,7 +17,6 @@
 #include <Imath/ImathVec.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 

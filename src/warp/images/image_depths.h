@@ -6,7 +6,6 @@
 #include "warp/images/matched_view.h"
 #include "warp/images/patch_comparison.h"
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>

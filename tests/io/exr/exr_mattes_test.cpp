@@ -14,8 +14,6 @@
 #include <ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-
 namespace sparselens {
 namespace {
 

@@ -8,12 +8,10 @@
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <limits>
 
 namespace sparselens {
 namespace {
