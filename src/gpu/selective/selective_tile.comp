@@ -1,7 +1,7 @@
 #version 460
 // The selective gather of a tile: the same as src/dof/selective/selective.cpp, with the same sums in the same order.
 //
-// A work group takes the pieces that its tile lists (splat_lists.h), front to back. If the discs of a block cover the
+// A work group takes the pieces that its tile lists (selective_tiles.cpp), front to back. If the discs of a block cover the
 // tile, it adds the sums of the block to all pixels. It loads the splats of other blocks into shared memory, chunk by
 // chunk, with the chords of each disc along the edges of the tile's columns and rows. Then each thread adds the light
 // of these discs to its pixels, splat after splat. At the end of a bin, the sums become a layer of each pixel, or part

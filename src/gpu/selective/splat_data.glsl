@@ -1,4 +1,4 @@
-// The data of the selective gather's kernel: bindings (splat_lists.h), and what a work group shares.
+// The data of the selective gather's kernel: bindings (selective_tiles.cpp), and what a work group shares.
 
 layout(binding = 0) readonly buffer Discs { double discs[]; };             // [x, y, radius][splat]
 // [splat]: coverage, known, colours, known times radius
