@@ -1,6 +1,6 @@
 // The data of the lens gather's kernel: bindings, shared memory, and the state of a work group.
 
-// The scene (scene_arrays.h). Data that change in a pull of focus are apart from data that do not.
+// The scene (lens_tiles.h). Data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
 // The upper half of the key, with the bit `hiding` except for fillers.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
