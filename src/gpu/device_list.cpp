@@ -1,22 +1,16 @@
 #include "gpu/device_list.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <system_error>
 
 namespace sparselens::gpu {
 
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char &c : result) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 const char *words_of(Kind kind) {
     switch (kind) {
@@ -66,9 +60,10 @@ std::optional<DeviceInfo> choose_device(std::string_view word, std::span<const D
             throw Error("`device=gpu`: no GPU can be used; " + all_of(there) + ". Use `device=cpu`");
         return best;
     }
-    const std::string part = lower(word);
-    const auto named = std::ranges::find_if(
-        there, [&](const DeviceInfo &device) { return lower(device.name).find(part) != std::string::npos; });
+    const std::string part = lower_case(std::string(word));
+    const auto named = std::ranges::find_if(there, [&](const DeviceInfo &device) {
+        return lower_case(device.name).find(part) != std::string::npos;
+    });
     const std::string asked = "`device=" + std::string(word) + "`: ";
     if (named == there.end()) throw Error(asked + "no device has that name; " + all_of(there));
     if (!named->lacks.empty()) throw Error(asked + description(*named) + ". Use `device=cpu`");

@@ -36,7 +36,8 @@ private:
     using Marks = std::vector<Disagreement>; // one per block of image_depths.h
     // `rows`: memory that a band leaves to the next one.
     Ldi warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const;
-    void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
+    WarpedViews warp_by_bands(Progress &progress) const;
+    std::optional<WarpedViews> warp_on_device() const;
     std::vector<PlacedView> placed() const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
 
@@ -118,10 +119,9 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
     return out;
 }
 
-// Sets the pieces of bands that the device has done. If several bands come together, the piece of the first has all of
-// them.
-void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
-    static_assert(kernels::photo_block == image_block && warp_band_rows % image_block == 0);
+std::optional<WarpedViews> Warper::warp_on_device() const {
+    static_assert(kernels::photo_block == image_block);
+    if (!options_.device || views_.some_are_deep()) return {};
     const WarpScene scene{.views = views_,
                           .layout = layout_,
                           .averages = averages(),
@@ -130,16 +130,7 @@ void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
                           .scale = scale_,
                           .focus = focused_,
                           .across = options_.across};
-    const std::size_t columns = std::size_t(Tiles(layout_.windows.data, image_block).columns());
-    options_.device->warp(scene, [&](WarpedBands bands) {
-        for (std::size_t b = bands.first; b < bands.first + bands.count; ++b) {
-            pieces[b] = empty_like(layout_);
-            pieces[b].begin.assign(1, 0);
-        }
-        pieces[bands.first] = std::move(bands.ldi);
-        const std::size_t first_block = bands.first * (warp_band_rows / image_block) * columns;
-        std::ranges::copy(bands.differ, differ.begin() + std::ptrdiff_t(first_block));
-    });
+    return options_.device->warp(scene);
 }
 
 // Reserves room that nearly always holds all samples. It uses no memory before it is written to.
@@ -160,29 +151,35 @@ std::vector<PlacedView> Warper::placed() const {
     return views;
 }
 
-Ldi Warper::run(Progress &progress) {
-    const Tiles bands(layout_.windows.data, layout_.windows.width(), warp_band_rows);
-    std::vector<Ldi> pieces(bands.count());
-    Marks differ(Tiles(layout_.windows.data, image_block).count());
-    progress.start("warping", bands.count());
-    if (options_.device && !views_.some_are_deep()) warp_on_device(pieces, differ);
+WarpedViews Warper::warp_by_bands(Progress &progress) const {
+    constexpr int rows_at_once = 16;
+    static_assert(rows_at_once % image_block == 0);
+    const Tiles bands(layout_.windows.data, layout_.windows.width(), rows_at_once);
+    WarpedViews made{without_pixels(layout_), Marks(Tiles(layout_.windows.data, image_block).count())};
     tbb::enumerable_thread_specific<ReprojectedRows> memory;
-    Ldi ldi = without_pixels(layout_);
     in_order(
         bands.count(),
         [&](std::size_t band) {
             const Imath::Box2i rows = bands.box(band);
-            if (!pieces[band].begin.empty()) return std::move(pieces[band]);
-            return warp_band(rows.min.y, rows.max.y, differ, memory.local());
+            return warp_band(rows.min.y, rows.max.y, made.differ, memory.local());
         },
-        [&](std::size_t, const Ldi &band) {
-            append_pixels(ldi, band);
-            progress.advance();
+        [&](std::size_t n, const Ldi &band) {
+            append_pixels(made.ldi, band);
+            progress.advance(std::size_t(bands.box(n).size().y + 1));
         });
-    memory.clear();
+    return made;
+}
+
+Ldi Warper::run(Progress &progress) {
+    const auto height = std::size_t(layout_.windows.height());
+    progress.start("warping", height);
+    std::optional<WarpedViews> on_device = warp_on_device();
+    if (on_device) progress.advance(height);
+    WarpedViews made = on_device ? std::move(*on_device) : warp_by_bands(progress);
+    Ldi ldi = std::move(made.ldi);
     keep_opaque(views_, tolerance_, ldi);
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
-    if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
+    if (options_.find_images) show_images(placed(), scale_, options_.across, made.differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     Sights sights(views_, scale_);
     give_back_memory(); // that the views had

@@ -197,7 +197,7 @@ public:
         return ldi;
     }
 
-    std::vector<Disagreement> differing_blocks() const { // after finish(); see WarpedBands
+    std::vector<Disagreement> differing_blocks() const { // after finish(); see WarpedViews
         std::vector<Disagreement> differ(blocks_);
         std::ranges::transform(verdicts_, differ.begin(), disagreement_of);
         return differ;
@@ -286,7 +286,8 @@ class WarpGpu : public WarpDevice {
 public:
     WarpGpu(const DeviceInfo &info, const Watch &watch) : worker_(info, watch), kernels_(worker_.device) {}
 
-    void warp(const WarpScene &scene, const std::function<void(WarpedBands)> &done) override {
+    std::optional<WarpedViews> warp(const WarpScene &scene) override {
+        std::optional<WarpedViews> done;
         const auto height = std::size_t(scene.layout.windows.height());
         const auto leave = [&](const char *why) { worker_.report.on_cpu[why] += height; };
         worker_.unless_lost(height, [&] {
@@ -298,9 +299,10 @@ public:
             worker_.report.uploaded += on.uploaded();
             std::optional<Ldi> ldi = on.finish();
             if (!ldi) return leave("more samples in a pixel than it sorts");
-            done({0, pieces_of(height, std::size_t{warp_band_rows}), std::move(*ldi), on.differing_blocks()});
+            done = {std::move(*ldi), on.differing_blocks()};
             worker_.report.on_device += height;
         });
+        return done;
     }
 
     DeviceReport take_report() override { return worker_.take_report(); }
