@@ -21,9 +21,8 @@ Pictures pictures_of(const py::object &given, const char *name) {
     constexpr const char *wanted = "a sequence of Picture";
     Pictures found;
     if (given.is_none()) return found;
-    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
-        found.push_back(&argument<PictureObject>(py::reinterpret_borrow<py::object>(item), name, wanted));
+    for (const py::handle &item : sequence_of(given, name, wanted))
+        found.push_back(&argument<PictureObject>(item, name, wanted));
     return found;
 }
 
@@ -38,11 +37,10 @@ std::vector<double> stated_samples(const Pictures &rays) {
 std::vector<double> samples_of(const py::object &given, const Pictures &rays) {
     if (given.is_none()) return stated_samples(rays);
     std::vector<double> samples;
-    if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given))
-        wrong_type("samples", "a sequence of numbers", given);
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given)) {
+    constexpr const char *wanted = "a sequence of numbers";
+    for (const py::handle &item : sequence_of(given, "samples", wanted)) {
         if (!py::isinstance<py::float_>(item) && !py::isinstance<py::int_>(item))
-            wrong_type("samples", "a sequence of numbers", item);
+            wrong_type("samples", wanted, item);
         samples.push_back(item.cast<double>());
         if (!(samples.back() > 0) || !std::isfinite(samples.back()))
             Keywords::refuse("samples", "above 0", fmt::format("{:g}", samples.back()));
@@ -76,8 +74,7 @@ std::vector<std::pair<const PictureObject *, Pictures>> frames_of(const py::obje
     std::vector<std::pair<const PictureObject *, Pictures>> frames;
     if (given.is_none()) return frames;
     constexpr const char *wanted = "a sequence of pairs: a Picture and its renders";
-    if (!py::isinstance<py::sequence>(given)) wrong_type("around", wanted, given);
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given)) {
+    for (const py::handle &item : sequence_of(given, "around", wanted)) {
         const bool is_pair =
             (py::isinstance<py::tuple>(item) || py::isinstance<py::list>(item)) && py::len(item) == 2;
         if (!is_pair) wrong_type("around", wanted, given);

@@ -1,11 +1,10 @@
-#include "python/from_arrays.h"
-
 #include "base/error.h"
 #include "deep/sanitize.h"
 #include "io/camera/camera_header.h"
 #include "io/exr/exr_common.h"
 #include "python/arrays.h"
 #include "python/job.h"
+#include "python/verbs.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -103,17 +102,9 @@ Windows windows_from(Keywords &keywords) {
 
 Ldi samples_from(const py::object &begin, const py::object &z, const py::object &channels,
                  const Windows &windows, Keywords &keywords) {
-    Ldi ldi{.windows = windows,
-            .channels = {},
-            .begin = {},
-            .z = floats_from(z, "z", 0),
-            .z_back = {},
-            .dx = {},
-            .dy = {},
-            .weight = {},
-            .image_z = {},
-            .solid = {},
-            .values = {}};
+    Ldi ldi;
+    ldi.windows = windows;
+    ldi.z = floats_from(z, "z", 0);
     const std::size_t samples = ldi.samples();
     ldi.begin = begin_from(begin, windows, samples);
     if (samples == 0) throw UsageError("z: there are no samples");
@@ -173,7 +164,7 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return prepare_view(std::move(file), name, options); }),
         position};
-    warn_of(name, view.in.warnings, view.in.speckles, view.in.bad);
+    warn_of(name, view.in);
     return view;
 }
 
@@ -184,11 +175,9 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
     if (name.empty()) name = "ldi";
     const Windows windows = windows_from(keywords);
     const OpenOptions options{lens_values(keywords), depth_options(keywords)};
-    LdiFile file{.ldi = samples_from(begin, z, channels, windows, keywords),
-                 .header = header_for(windows, keywords),
-                 .deep = true,
-                 .notes = {},
-                 .warnings = {}};
+    LdiFile file;
+    file.ldi = samples_from(begin, z, channels, windows, keywords);
+    file.header = header_for(windows, keywords);
     keywords.done();
     name_colours(file.ldi.channels, file.header);
     if (options.depth.picture.unpremultiplied)
@@ -196,7 +185,7 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
                     std::vector<std::span<float>>(file.ldi.values.begin(), file.ldi.values.end()));
     auto ldi =
         job<OpenedLdi>(py::none(), [&](Progress &) { return prepare_ldi(std::move(file), name, options); });
-    warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
+    warn_of(name, ldi);
     return ldi;
 }
 

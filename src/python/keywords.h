@@ -12,7 +12,6 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,10 +45,6 @@ public:
     // Takes one of a few words.
     template <typename Value>
     std::optional<Value> word(const char *name, std::initializer_list<std::pair<const char *, Value>> words) {
-        return word(name, std::span<const std::pair<const char *, Value>>(words));
-    }
-    template <typename Value>
-    std::optional<Value> word(const char *name, std::span<const std::pair<const char *, Value>> words) {
         const std::string given = text(name);
         if (given.empty()) return {};
         std::string all;

@@ -4,7 +4,6 @@
 #include "chain/notices.h"
 #include "io/camera/camera_header.h"
 #include "python/arrays.h"
-#include "python/from_arrays.h"
 #include "python/verbs.h"
 
 #include <fmt/format.h>
@@ -19,12 +18,14 @@ namespace sparselens::python {
 namespace {
 
 using Matrix = std::array<std::array<double, 4>, 4>;
-using Box = std::array<int, 4>;
-Box box_of(const Imath::Box2i &box) { return {box.min.x, box.min.y, box.max.x, box.max.y}; }
 
-std::vector<std::string> names_of(const std::vector<Channel> &channels) {
-    std::vector<std::string> names;
-    for (const Channel &channel : channels) names.push_back(channel.name);
+py::tuple box_of(const Imath::Box2i &box) {
+    return py::make_tuple(box.min.x, box.min.y, box.max.x, box.max.y);
+}
+
+py::tuple names_of(const std::vector<Channel> &channels) {
+    py::list names;
+    for (const Channel &channel : channels) names.append(channel.name);
     return names;
 }
 
@@ -45,52 +46,47 @@ py::array samples_of(const py::object &self, const std::string &channel) {
     return shared(ldi.values[k], self, {}, Access::read_only, ldi.channels[k].type);
 }
 
+// Adds an attribute that cannot be set.
+template <typename Object, typename Get>
+void property(py::class_<Object> &type, const char *name, const char *text, const Get &get) {
+    type.def_property_readonly(name, get, text);
+}
+
 // Binds the windows of an object.
 template <typename Object, typename Get>
 void bind_windows(py::class_<Object> &type, const Get &windows_of) {
-    type.def_property_readonly(
-            "width", [=](const Object &o) { return windows_of(o).width(); }, doc::Windows::width)
-        .def_property_readonly(
-            "height", [=](const Object &o) { return windows_of(o).height(); }, doc::Windows::height)
-        .def_property_readonly(
-            "data_window", [=](const Object &o) { return py::tuple(py::cast(box_of(windows_of(o).data))); },
-            doc::Windows::data_window)
-        .def_property_readonly(
-            "display_window",
-            [=](const Object &o) { return py::tuple(py::cast(box_of(windows_of(o).display))); },
-            doc::Windows::display_window)
-        .def_property_readonly(
-            "pixel_aspect", [=](const Object &o) { return windows_of(o).pixel_aspect; },
-            doc::Windows::pixel_aspect);
+    namespace Doc = doc::Windows;
+    property(type, "width", Doc::width, [=](const Object &o) { return windows_of(o).width(); });
+    property(type, "height", Doc::height, [=](const Object &o) { return windows_of(o).height(); });
+    property(type, "data_window", Doc::data_window,
+             [=](const Object &o) { return box_of(windows_of(o).data); });
+    property(type, "display_window", Doc::display_window,
+             [=](const Object &o) { return box_of(windows_of(o).display); });
+    property(type, "pixel_aspect", Doc::pixel_aspect,
+             [=](const Object &o) { return windows_of(o).pixel_aspect; });
 }
 
 // Binds the channels of an object's image.
 template <typename Object, typename Get>
 void bind_image(py::class_<Object> &type, const Get &image_of, Access access) {
     bind_windows(type, [=](const Object &o) -> const Windows & { return image_of(o).windows; });
-    type.def_property_readonly(
-            "channels", [=](const Object &o) { return py::tuple(py::cast(names_of(image_of(o).channels))); },
-            doc::Windows::channels)
-        .def_property_readonly(
-            "planes",
-            [=](const py::object &self) {
-                return planes_of(image_of(self.cast<const Object &>()), self, access);
-            },
-            doc::Image::planes)
-        .def_property_readonly(
-            "pixels",
-            [=](const py::object &self) {
-                return planes_of(image_of(self.cast<const Object &>()), self, access)
-                    .attr("transpose")(1, 2, 0);
-            },
-            doc::Image::pixels)
-        .def(
-            "__getitem__",
-            [=](const py::object &self, const std::string &channel) {
-                return plane_of(image_of(self.cast<const Object &>()), channel, self, access);
-            },
-            py::arg("channel"), doc::Image::getitem);
+    const auto planes = [=](const py::object &self) {
+        return planes_of(image_of(self.cast<const Object &>()), self, access);
+    };
+    property(type, "channels", doc::Windows::channels,
+             [=](const Object &o) { return names_of(image_of(o).channels); });
+    property(type, "planes", doc::Image::planes, planes);
+    property(type, "pixels", doc::Image::pixels,
+             [=](const py::object &self) { return planes(self).attr("transpose")(1, 2, 0); });
+    type.def(
+        "__getitem__",
+        [=](const py::object &self, const std::string &channel) {
+            return plane_of(image_of(self.cast<const Object &>()), channel, self, access);
+        },
+        py::arg("channel"), doc::Image::getitem);
 }
+
+py::tuple pair_of(const Imath::V2d &v) { return py::make_tuple(v.x, v.y); }
 
 void bind_camera(py::module_ &module) {
     py::class_<Camera> type(module, "Camera", doc::Camera::text);
@@ -100,33 +96,28 @@ void bind_camera(py::module_ &module) {
         .def_property_readonly("lens_radius", &lens_radius_of, doc::Camera::lens_radius)
         .def_readonly("supersample", &Camera::supersample, doc::Camera::supersample)
         .def_readonly("focus_distance", &Camera::focus_distance, doc::Camera::focus_distance)
-        .def_readonly("scene_unit", &Camera::metres_per_unit, doc::Camera::scene_unit)
-        .def_property_readonly(
-            "world_to_camera",
-            [](const Camera &camera) -> std::optional<Matrix> {
-                if (!camera.world_to_camera) return {};
-                Matrix m;
-                for (int i = 0; i < 4; ++i)
-                    for (int k = 0; k < 4; ++k)
-                        m[std::size_t(i)][std::size_t(k)] = (*camera.world_to_camera)[i][k];
-                return m;
-            },
-            doc::Camera::world_to_camera)
-        .def_property_readonly(
-            "lens_points",
-            [](const Camera &camera) {
-                py::list points;
-                for (const Imath::V2d &p : camera.lens_points) points.append(py::make_tuple(p.x, p.y));
-                return points;
-            },
-            doc::Camera::lens_points)
-        .def("__repr__", [](const py::object &camera) {
-            std::string text = "<sparselens.Camera";
-            for (const char *name : {"focal_length", "sensor_width", "fstop", "focus_distance", "scene_unit"})
-                if (const py::object value = camera.attr(name); !value.is_none())
-                    text += fmt::format(" {}={}", name, std::string(py::repr(value)));
-            return text + ">";
-        });
+        .def_readonly("scene_unit", &Camera::metres_per_unit, doc::Camera::scene_unit);
+    property(type, "world_to_camera", doc::Camera::world_to_camera,
+             [](const Camera &camera) -> std::optional<Matrix> {
+                 if (!camera.world_to_camera) return {};
+                 Matrix m;
+                 for (int i = 0; i < 4; ++i)
+                     for (int k = 0; k < 4; ++k)
+                         m[std::size_t(i)][std::size_t(k)] = (*camera.world_to_camera)[i][k];
+                 return m;
+             });
+    property(type, "lens_points", doc::Camera::lens_points, [](const Camera &camera) {
+        py::list points;
+        for (const Imath::V2d &p : camera.lens_points) points.append(pair_of(p));
+        return points;
+    });
+    type.def("__repr__", [](const py::object &camera) {
+        std::string text = "<sparselens.Camera";
+        for (const char *name : {"focal_length", "sensor_width", "fstop", "focus_distance", "scene_unit"})
+            if (const py::object value = camera.attr(name); !value.is_none())
+                text += fmt::format(" {}={}", name, std::string(py::repr(value)));
+        return text + ">";
+    });
 }
 
 void bind_view(py::module_ &module) {
@@ -134,32 +125,22 @@ void bind_view(py::module_ &module) {
     type.def(py::init(&view_from), py::arg("image"), py::arg("z") = py::none(), doc::View::init);
     bind_image(
         type, [](const ViewObject &view) -> const Image & { return view.in.view.image; }, Access::read_only);
-    type.def_property_readonly(
-            "z",
-            [](const py::object &self) {
-                const View &view = self.cast<const ViewObject &>().in.view;
-                const Windows &w = view.image.windows;
-                return shared(view.z, self, {std::size_t(w.height()), std::size_t(w.width())});
-            },
-            doc::View::z)
-        .def_property_readonly(
-            "name", [](const ViewObject &view) { return view.in.view.name; }, doc::Opened::name)
-        .def_property_readonly(
-            "position",
-            [](const ViewObject &view) -> py::object {
-                if (!view.position) return py::none();
-                return py::make_tuple(view.position->x, view.position->y);
-            },
-            doc::View::position)
-        .def_property_readonly(
-            "camera", [](const ViewObject &view) { return view.in.camera; }, doc::Opened::camera)
-        .def_property_readonly(
-            "notes", [](const ViewObject &view) { return view.in.notes; }, doc::Opened::notes)
-        .def("__repr__", [](const ViewObject &view) {
-            const Image &image = view.in.view.image;
-            return text_of("View", view.in.view.name, image.windows,
-                           fmt::format("{} channels and z", image.channels.size()));
-        });
+    property(type, "z", doc::View::z, [](const py::object &self) {
+        const View &view = self.cast<const ViewObject &>().in.view;
+        const Windows &w = view.image.windows;
+        return shared(view.z, self, {std::size_t(w.height()), std::size_t(w.width())});
+    });
+    property(type, "name", doc::Opened::name, [](const ViewObject &view) { return view.in.view.name; });
+    property(type, "position", doc::View::position, [](const ViewObject &view) {
+        return view.position ? py::object(pair_of(*view.position)) : py::object(py::none());
+    });
+    property(type, "camera", doc::Opened::camera, [](const ViewObject &view) { return view.in.camera; });
+    property(type, "notes", doc::Opened::notes, [](const ViewObject &view) { return view.in.notes; });
+    type.def("__repr__", [](const ViewObject &view) {
+        const Image &image = view.in.view.image;
+        return text_of("View", view.in.view.name, image.windows,
+                       fmt::format("{} channels and z", image.channels.size()));
+    });
 }
 
 void bind_ldi(py::module_ &module) {
@@ -167,32 +148,24 @@ void bind_ldi(py::module_ &module) {
     type.def(py::init(&ldi_from), py::arg("begin"), py::arg("z"), py::arg("channels"), doc::Ldi::init);
     bind_windows(type, [](const LdiObject &in) -> const Windows & { return in.ldi.windows; });
     const auto samples = [&](const char *name, std::vector<float> Ldi::*member, const char *text) {
-        type.def_property_readonly(
-            name,
-            [member](const py::object &self) {
-                return optional_samples(self.cast<const LdiObject &>().ldi.*member, self);
-            },
-            text);
+        property(type, name, text, [member](const py::object &self) {
+            return optional_samples(self.cast<const LdiObject &>().ldi.*member, self);
+        });
     };
-    type.def_property_readonly(
-        "begin",
-        [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.begin, self); },
-        doc::Ldi::begin);
-    type.def_property_readonly(
-        "z", [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.z, self); },
-        doc::Ldi::z);
+    property(type, "begin", doc::Ldi::begin,
+             [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.begin, self); });
+    property(type, "z", doc::Ldi::z,
+             [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.z, self); });
     samples("z_back", &Ldi::z_back, doc::Ldi::z_back);
     samples("dx", &Ldi::dx, doc::Ldi::dx);
     samples("dy", &Ldi::dy, doc::Ldi::dy);
     samples("weight", &Ldi::weight, doc::Ldi::weight);
     samples("optical", &Ldi::image_z, doc::Ldi::optical);
     samples("solid", &Ldi::solid, doc::Ldi::solid);
-    type.def_property_readonly(
-            "channels", [](const LdiObject &in) { return py::tuple(py::cast(names_of(in.ldi.channels))); },
-            doc::Windows::channels)
-        .def("__getitem__", &samples_of, py::arg("channel"), doc::Ldi::getitem)
-        .def_property_readonly(
-            "samples", [](const LdiObject &in) { return in.ldi.samples(); }, doc::Ldi::samples)
+    property(type, "channels", doc::Windows::channels,
+             [](const LdiObject &in) { return names_of(in.ldi.channels); });
+    property(type, "samples", doc::Ldi::samples, [](const LdiObject &in) { return in.ldi.samples(); });
+    type.def("__getitem__", &samples_of, py::arg("channel"), doc::Ldi::getitem)
         .def_readonly("name", &LdiObject::name, doc::Opened::name)
         .def_readonly("camera", &LdiObject::camera, doc::Opened::camera)
         .def_readonly("notes", &LdiObject::notes, doc::Opened::notes)
@@ -206,105 +179,66 @@ void bind_picture(py::module_ &module) {
     type.def(py::init(&picture_from), py::arg("image"), doc::Picture::init);
     bind_image(
         type, [](const PictureObject &picture) -> const Image & { return picture.image; }, Access::writable);
-    type.def_property_readonly(
-            "camera", [](const PictureObject &picture) { return read_camera(picture.header); },
-            doc::Picture::camera)
-        .def("__repr__",
-             [](const PictureObject &picture) {
-                 return text_of("Picture", {}, picture.image.windows,
-                                fmt::format("{} channels", picture.image.channels.size()));
-             })
-        .def("_repr_png_", &png_of, doc::Picture::repr_png);
+    property(type, "camera", doc::Picture::camera,
+             [](const PictureObject &picture) { return read_camera(picture.header); });
+    type.def("_repr_png_", &png_of, doc::Picture::repr_png).def("__repr__", [](const PictureObject &picture) {
+        return text_of("Picture", {}, picture.image.windows,
+                       fmt::format("{} channels", picture.image.channels.size()));
+    });
 }
 
 void bind_planned_view(py::module_ &module) {
-    py::class_<PlannedViewObject> type(module, "PlannedView", doc::PlannedView::text);
-    type.def_property_readonly(
-            "lens_point", [](const PlannedViewObject &o) { return py::make_tuple(o.view.u.x, o.view.u.y); },
-            doc::PlannedView::lens_point)
-        .def_property_readonly(
-            "position",
-            [](const PlannedViewObject &o) {
-                return py::make_tuple(o.lens.radius * o.view.u.x, o.lens.radius * o.view.u.y);
-            },
-            doc::PlannedView::position)
-        .def_property_readonly(
-            "share",
-            [](const PlannedViewObject &o) {
-                return double(o.view.mask.count()) / double(o.view.mask.set.size());
-            },
-            doc::PlannedView::share)
-        .def_property_readonly(
-            "uncovered", [](const PlannedViewObject &o) { return o.view.uncovered; },
-            doc::PlannedView::uncovered)
-        .def_property_readonly(
-            "mask",
-            [](const py::object &self) {
-                const PixelMask &mask = self.cast<const PlannedViewObject &>().view.mask;
-                return shared(mask.set, self, std::size_t(mask.width()));
-            },
-            doc::PlannedView::mask)
-        .def_property_readonly(
-            "rectangles",
-            [](const PlannedViewObject &o) {
-                py::list boxes;
-                for (const Imath::Box2i &box : rectangles_over(o.view.mask))
-                    boxes.append(py::tuple(py::cast(box_of(box))));
-                return boxes;
-            },
-            doc::PlannedView::rectangles);
+    namespace Doc = doc::PlannedView;
+    using Planned = PlannedViewObject;
+    py::class_<Planned> type(module, "PlannedView", Doc::text);
+    property(type, "lens_point", Doc::lens_point, [](const Planned &o) { return pair_of(o.view.u); });
+    property(type, "position", Doc::position,
+             [](const Planned &o) { return pair_of(o.lens.radius * o.view.u); });
+    property(type, "share", Doc::share,
+             [](const Planned &o) { return double(o.view.mask.count()) / double(o.view.mask.set.size()); });
+    property(type, "uncovered", Doc::uncovered, [](const Planned &o) { return o.view.uncovered; });
+    property(type, "mask", Doc::mask, [](const py::object &self) {
+        const PixelMask &mask = self.cast<const Planned &>().view.mask;
+        return shared(mask.set, self, std::size_t(mask.width()));
+    });
+    property(type, "rectangles", Doc::rectangles, [](const Planned &o) {
+        py::list boxes;
+        for (const Imath::Box2i &box : rectangles_over(o.view.mask)) boxes.append(box_of(box));
+        return boxes;
+    });
 }
 
 void bind_plan(py::module_ &module) {
+    namespace Doc = doc::Plan;
     bind_planned_view(module);
-    py::class_<PlanObject> type(module, "Plan", doc::Plan::text);
-    type.def_property_readonly(
-            "views",
-            [](const PlanObject &o) {
-                std::vector<PlannedViewObject> views;
-                for (const PlannedView &view : o.plan.views) views.push_back({view, o.setting.lens});
-                return views;
-            },
-            doc::Plan::views)
-        .def_property_readonly(
-            "share", [](const PlanObject &o) { return o.plan.share(); }, doc::Plan::share)
-        .def_property_readonly(
-            "full_views", [](const PlanObject &o) { return o.plan.full_views; }, doc::Plan::full_views)
-        .def_property_readonly(
-            "supersample", [](const PlanObject &o) { return o.plan.supersample; }, doc::Plan::supersample)
-        .def_property_readonly(
-            "rays",
-            [](const PlanObject &o) -> py::object {
-                const auto &rays = o.setting.division;
-                if (!rays) return py::none();
-                return py::dict(py::arg("views") = rays->views, py::arg("supersample") = rays->supersample,
-                                py::arg("samples") = rays->samples, py::arg("per_render") = rays->per_render,
-                                py::arg("noise_db") = -10 * std::log10(rays->noise),
-                                py::arg("alone") = rays->alone);
-            },
-            doc::Plan::rays)
-        .def_property_readonly(
-            "moments",
-            [](const PlanObject &o) -> std::optional<int> {
-                return o.setting.moments ? std::optional(o.setting.moments->moments) : std::nullopt;
-            },
-            doc::Plan::moments)
-        .def_property_readonly(
-            "motion",
-            [](const PlanObject &o) -> std::optional<double> {
-                return o.setting.moments ? std::optional(o.setting.moments->motion) : std::nullopt;
-            },
-            doc::Plan::motion)
-        .def_property_readonly(
-            "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); },
-            doc::Plan::noise_db)
-        .def_property_readonly(
-            "overscan",
-            [](const PlanObject &o) {
-                const OverscanNeed &need = o.plan.overscan;
-                return py::make_tuple(need.left, need.top, need.right, need.bottom);
-            },
-            doc::Plan::overscan);
+    py::class_<PlanObject> type(module, "Plan", Doc::text);
+    property(type, "views", Doc::views, [](const PlanObject &o) {
+        std::vector<PlannedViewObject> views;
+        for (const PlannedView &view : o.plan.views) views.push_back({view, o.setting.lens});
+        return views;
+    });
+    property(type, "share", Doc::share, [](const PlanObject &o) { return o.plan.share(); });
+    property(type, "full_views", Doc::full_views, [](const PlanObject &o) { return o.plan.full_views; });
+    property(type, "supersample", Doc::supersample, [](const PlanObject &o) { return o.plan.supersample; });
+    property(type, "rays", Doc::rays, [](const PlanObject &o) -> py::object {
+        const auto &rays = o.setting.division;
+        if (!rays) return py::none();
+        return py::dict(py::arg("views") = rays->views, py::arg("supersample") = rays->supersample,
+                        py::arg("samples") = rays->samples, py::arg("per_render") = rays->per_render,
+                        py::arg("noise_db") = -10 * std::log10(rays->noise), py::arg("alone") = rays->alone);
+    });
+    property(type, "moments", Doc::moments, [](const PlanObject &o) {
+        return o.setting.moments ? std::optional(o.setting.moments->moments) : std::nullopt;
+    });
+    property(type, "motion", Doc::motion, [](const PlanObject &o) {
+        return o.setting.moments ? std::optional(o.setting.moments->motion) : std::nullopt;
+    });
+    property(type, "noise_db", Doc::noise_db,
+             [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); });
+    property(type, "overscan", Doc::overscan, [](const PlanObject &o) {
+        const OverscanNeed &need = o.plan.overscan;
+        return py::make_tuple(need.left, need.top, need.right, need.bottom);
+    });
 }
 
 } // namespace
@@ -322,11 +256,16 @@ void warn(const std::string &text) {
     if (PyErr_WarnEx(PyExc_UserWarning, with_keywords(text).c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void warn_of(const std::string &name, const std::vector<std::string> &warnings, std::size_t speckles,
-             const InvalidValues &bad) {
-    for (const std::string &warning : warnings) warn(name + ": " + warning);
-    notify_speckles([](const Notice &notice) { warn(words_of(notice)); }, name, speckles);
-    if (bad.any()) warn(name + ": " + bad.text());
+void warn_of(const std::string &name, const OpenedFile &file) {
+    for (const std::string &warning : file.warnings) warn(name + ": " + warning);
+    notify_speckles([](const Notice &notice) { warn(words_of(notice)); }, name, file.speckles);
+    if (file.bad.any()) warn(name + ": " + file.bad.text());
+}
+
+py::sequence sequence_of(const py::handle &given, const char *name, const char *wanted) {
+    if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given))
+        wrong_type(name, wanted, given);
+    return py::reinterpret_borrow<py::sequence>(given);
 }
 
 void bind_objects(py::module_ &module) {

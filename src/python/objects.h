@@ -40,7 +40,10 @@ struct PlannedViewObject {
 
 // Returns the argument as one of these objects. Throws TypeError, which names the argument.
 template <typename Object>
-const Object &argument(const py::object &object, const char *name, const char *wanted);
+const Object &argument(const py::handle &object, const char *name, const char *wanted);
+
+// Returns the argument as a sequence. Throws TypeError, which names the argument, for anything else, and for a str.
+py::sequence sequence_of(const py::handle &given, const char *name, const char *wanted);
 
 // Returns the objects of a sequence, or the single object. Throws TypeError, which names the argument, and UsageError
 // if there is none.
@@ -52,8 +55,7 @@ std::string with_keywords(const std::string &message);
 
 // Raises Python warnings (UserWarning) about what was repaired in a file and what is probably a mistake.
 void warn(const std::string &text);
-void warn_of(const std::string &name, const std::vector<std::string> &warnings, std::size_t speckles,
-             const InvalidValues &bad);
+void warn_of(const std::string &name, const OpenedFile &file);
 
 void bind_objects(py::module_ &module);
 void bind_verbs(py::module_ &module);
@@ -63,7 +65,7 @@ void bind_verbs(py::module_ &module);
 #include "python/keywords.h"
 
 template <typename Object>
-const Object &sparselens::python::argument(const py::object &object, const char *name, const char *wanted) {
+const Object &sparselens::python::argument(const py::handle &object, const char *name, const char *wanted) {
     if (!py::isinstance<Object>(object)) wrong_type(name, wanted, object);
     return object.cast<const Object &>();
 }
@@ -72,10 +74,9 @@ template <typename Object>
 std::vector<const Object *> sparselens::python::several(const py::object &given, const char *name,
                                                         const char *wanted) {
     if (py::isinstance<Object>(given)) return {&given.cast<const Object &>()};
-    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
     std::vector<const Object *> found;
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
-        found.push_back(&argument<Object>(py::reinterpret_borrow<py::object>(item), name, wanted));
+    for (const py::handle &item : sequence_of(given, name, wanted))
+        found.push_back(&argument<Object>(item, name, wanted));
     if (found.empty()) throw UsageError(std::string(name) + ": there is none");
     return found;
 }

@@ -26,7 +26,7 @@ namespace sparselens::python {
 
 namespace {
 
-constexpr const char *a_view = "a View", *an_ldi = "an Ldi";
+constexpr const char *a_view = "a View", *an_ldi = "an Ldi", *views_wanted = "a sequence of View and Ldi";
 
 ViewObject open_view(const py::object &path, const py::kwargs &given) {
     Keywords keywords("open_view", given);
@@ -40,7 +40,7 @@ ViewObject open_view(const py::object &path, const py::kwargs &given) {
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return open_view(name, options, otherwise); }),
         position};
-    warn_of(name, view.in.warnings, view.in.speckles, view.in.bad);
+    warn_of(name, view.in);
     return view;
 }
 
@@ -55,7 +55,7 @@ LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
             opened.header = to_linear([](const Notice &) {}, {}, name, opened.header, opened.ldi);
         return opened;
     });
-    warn_of(name, ldi.warnings, ldi.speckles, ldi.bad);
+    warn_of(name, ldi);
     return ldi;
 }
 
@@ -65,7 +65,7 @@ PictureObject open_picture(const py::object &path, const py::kwargs &given) {
     const PictureChoice picture = picture_choice(keywords);
     keywords.done();
     auto file = job<FlatFile>(py::none(), [&](Progress &) { return read_flat_exr(name, picture); });
-    warn_of(name, file.warnings, 0, {});
+    for (const std::string &warning : file.warnings) warn(name + ": " + warning);
     return {std::move(file.image), std::move(file.header)};
 }
 
@@ -106,15 +106,13 @@ ViewInMemory view_in_memory(const py::handle &object) {
         const auto &view = object.cast<const ViewObject &>();
         return {.flat = &view.in, .position = view.position};
     }
-    return {.deep = &argument<LdiObject>(py::reinterpret_borrow<py::object>(object), "views",
-                                         "a sequence of View and Ldi")};
+    return {.deep = &argument<LdiObject>(object, "views", views_wanted)};
 }
 
 std::vector<ViewInMemory> views_in_memory(const py::object &views) {
     if (py::isinstance<ViewObject>(views) || py::isinstance<LdiObject>(views)) return {view_in_memory(views)};
-    if (!py::isinstance<py::sequence>(views)) wrong_type("views", "a sequence of View and Ldi", views);
     std::vector<ViewInMemory> found;
-    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(views))
+    for (const py::handle &item : sequence_of(views, "views", views_wanted))
         found.push_back(view_in_memory(item));
     if (found.empty()) throw UsageError("views: there is none");
     return found;
