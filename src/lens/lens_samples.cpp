@@ -35,12 +35,6 @@ std::vector<Imath::V2d> positions_by(const OwnStep &step) {
 
 } // namespace
 
-std::vector<std::size_t> numbers_with_own_steps() {
-    std::vector<std::size_t> numbers;
-    for (const OwnStep &step : own_steps) numbers.push_back(step.points);
-    return numbers;
-}
-
 std::vector<Imath::V2d> pixel_positions(std::size_t n) {
     const auto own = std::ranges::find(own_steps, n, &OwnStep::points);
     if (own != own_steps.end()) return positions_by(*own);

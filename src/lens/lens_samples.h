@@ -36,9 +36,6 @@ struct LensSample {
 // numbers of points use.
 std::vector<Imath::V2d> pixel_positions(std::size_t n);
 
-// The numbers of points that have their own steps.
-std::vector<std::size_t> numbers_with_own_steps();
-
 // A disc of n >= 1 points of equal weight.
 std::vector<LensSample> disc_lens_samples(std::size_t n, double pixel_aspect);
 

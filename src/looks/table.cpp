@@ -1,9 +1,18 @@
 #include "looks/table.h"
 
+#include "base/error.h"
+
+#include <fmt/format.h>
+
 #include <cmath>
 #include <vector>
 
 namespace sparselens {
+
+double focal_length_for(const char *look, const LookContext &context) {
+    if (context.focal_length_mm) return *context.focal_length_mm;
+    throw UsageError(fmt::format("`{}` needs the focal length: give `focal_length`", look));
+}
 
 namespace {
 
