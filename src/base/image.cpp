@@ -98,6 +98,12 @@ std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels) {
     return found;
 }
 
+std::vector<std::span<float>> planes_of(Image &image) {
+    std::vector<std::span<float>> planes;
+    for (std::size_t k = 0; k < image.channels.size(); ++k) planes.push_back(image.plane(k));
+    return planes;
+}
+
 bool all_found(const std::array<std::size_t, 3> &channels) {
     return std::ranges::find(channels, npos) == channels.end();
 }

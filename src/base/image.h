@@ -109,6 +109,9 @@ std::size_t find_channel(std::span<const Channel> channels, std::string_view nam
 inline constexpr std::array rgb_names{"R", "G", "B"};
 std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels);
 
+// The values of all channels.
+std::vector<std::span<float>> planes_of(Image &image);
+
 // Whether all three channels exist.
 bool all_found(const std::array<std::size_t, 3> &channels);
 

@@ -116,8 +116,7 @@ std::string space_of(const ColourConfig &config, const Imf::Header &header) {
 Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Ldi &ldi) {
     LinearColours to = linear_colours(notify, options, path, header);
-    const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
-    if (to.transform) transform_colours(*to.transform, ldi.channels, planes);
+    if (to.transform) transform_colours(*to.transform, ldi.channels, planes_of(ldi));
     return std::move(to.header);
 }
 
@@ -133,8 +132,7 @@ Imf::Header to_linear(const Notify &notify, const ColourOptions &options, const 
     if (view.samples.deep()) {
         Ldi samples = view.samples.as_ldi();
         samples.weight = {};
-        const std::vector<std::span<float>> planes(samples.values.begin(), samples.values.end());
-        transform_colours(*to.transform, samples.channels, planes);
+        transform_colours(*to.transform, samples.channels, planes_of(samples));
         view.samples = ViewSamples(std::move(samples));
         return std::move(to.header);
     }

@@ -10,6 +10,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -62,5 +63,8 @@ struct Ldi {
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
     double coc_z(std::uint64_t i) const { return double(image_z.empty() ? z[i] : image_z[i]); }
 };
+
+// The values of all channels.
+inline std::vector<std::span<float>> planes_of(Ldi &ldi) { return {ldi.values.begin(), ldi.values.end()}; }
 
 } // namespace sparselens

@@ -225,10 +225,6 @@ std::size_t repair_places(Ldi &ldi) {
     return bad;
 }
 
-std::vector<std::span<float>> planes_of(std::vector<std::vector<float>> &values) {
-    return {values.begin(), values.end()};
-}
-
 } // namespace
 
 std::string InvalidValues::text() const {
@@ -245,16 +241,14 @@ std::string InvalidValues::text() const {
 }
 
 InvalidValues sanitize(Ldi &ldi, const std::string &name) {
-    const Samples samples{ldi.windows, ldi.channels, planes_of(ldi.values), ldi.z, ldi.begin};
+    const Samples samples{ldi.windows, ldi.channels, planes_of(ldi), ldi.z, ldi.begin};
     InvalidValues found = Repair(samples, name).run();
     found.places = repair_places(ldi);
     return found;
 }
 
 InvalidValues sanitize(View &view) {
-    Samples samples{view.image.windows, view.image.channels, {}, view.z, {}};
-    for (std::size_t k = 0; k < view.image.channels.size(); ++k)
-        samples.values.push_back(view.image.plane(k));
+    const Samples samples{view.image.windows, view.image.channels, planes_of(view.image), view.z, {}};
     return Repair(samples, view.name).run();
 }
 
@@ -266,9 +260,7 @@ std::size_t coverage_for(std::span<const Channel> channels, std::size_t k) {
     return own != npos ? own : coverage_of(channels, k);
 }
 
-} // namespace
-
-void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes) {
+void premultiply_planes(std::span<const Channel> channels, std::span<const std::span<float>> planes) {
     for (std::size_t k = 0; k < channels.size(); ++k) {
         if (!is_light(channels[k]) || colour_part(channels[k]) == ColourPart::coverage) continue;
         const std::size_t by = coverage_for(channels, k);
@@ -278,5 +270,11 @@ void premultiply(std::span<const Channel> channels, std::span<const std::span<fl
         });
     }
 }
+
+} // namespace
+
+void premultiply(Image &image) { premultiply_planes(image.channels, planes_of(image)); }
+
+void premultiply(Ldi &ldi) { premultiply_planes(ldi.channels, planes_of(ldi)); }
 
 } // namespace sparselens

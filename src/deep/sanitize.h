@@ -21,7 +21,6 @@
 #include "ldi.h"
 
 #include <cstddef>
-#include <span>
 #include <string>
 
 namespace sparselens {
@@ -44,6 +43,7 @@ InvalidValues sanitize(View &view);
 
 // Multiplies every channel of light except coverage, by the A of its layer if the layer has one, otherwise by the
 // channel's coverage (channel_alpha.h). A channel without coverage stays as it is.
-void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes);
+void premultiply(Image &image);
+void premultiply(Ldi &ldi);
 
 } // namespace sparselens

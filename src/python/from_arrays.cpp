@@ -155,11 +155,7 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     set_windows(file.image.windows, keywords);
     file.header = header_for(file.image.windows, keywords);
     name_colours(file.image.channels, file.header);
-    if (options.depth.picture.unpremultiplied) {
-        std::vector<std::span<float>> planes;
-        for (std::size_t k = 0; k < file.image.channels.size(); ++k) planes.push_back(file.image.plane(k));
-        premultiply(file.image.channels, planes);
-    }
+    if (options.depth.picture.unpremultiplied) premultiply(file.image);
     keywords.done();
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return prepare_view(std::move(file), name, options); }),
@@ -180,9 +176,7 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
     file.header = header_for(windows, keywords);
     keywords.done();
     name_colours(file.ldi.channels, file.header);
-    if (options.depth.picture.unpremultiplied)
-        premultiply(file.ldi.channels,
-                    std::vector<std::span<float>>(file.ldi.values.begin(), file.ldi.values.end()));
+    if (options.depth.picture.unpremultiplied) premultiply(file.ldi);
     auto ldi =
         job<OpenedLdi>(py::none(), [&](Progress &) { return prepare_ldi(std::move(file), name, options); });
     warn_of(name, ldi);

@@ -36,11 +36,6 @@ std::string quoted_if_needed(const std::string &word) {
     return single_quoted(word);
 }
 
-std::string text_of(const Imf::Header &header, const char *name) {
-    const auto *text = header.findTypedAttribute<Imf::StringAttribute>(name);
-    return text ? text->value() : std::string();
-}
-
 } // namespace
 
 std::string command_line(const std::string &tool, const std::vector<std::string> &words) {
@@ -66,7 +61,7 @@ void add_history_option(CLI::App &app, HistoryOptions &options) {
 
 void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options) {
     if (options.none) return;
-    std::string history = text_of(header, "Exif:ImageHistory");
+    std::string history = text_attribute(header, "Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') history += '\n';
     set_attribute(header, "Exif:ImageHistory", Imf::StringAttribute(history + tool.command_line));
     set_attribute(header, "Software",

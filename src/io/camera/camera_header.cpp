@@ -34,8 +34,7 @@ bool agree(double a, double b) {
 
 std::vector<Imath::V2d> read_points(const Imf::Header &header) {
     std::vector<Imath::V2d> points;
-    const auto *text = header.findTypedAttribute<Imf::StringAttribute>(lens_points_name);
-    std::istringstream in(text ? text->value() : std::string());
+    std::istringstream in(text_attribute(header, lens_points_name));
     Imath::V2d p(0, 0);
     char comma = 0;
     while (in >> p.x >> comma >> p.y && comma == ',') points.push_back(p);

@@ -298,34 +298,31 @@ void transform_colours(const ColourTransform &transform, std::span<const Channel
 }
 
 void transform_colours(const ColourTransform &transform, Image &image) {
-    std::vector<std::span<float>> planes;
-    for (std::size_t k = 0; k < image.channels.size(); ++k) planes.push_back(image.plane(k));
-    transform_colours(transform, image.channels, planes);
+    transform_colours(transform, image.channels, planes_of(image));
 }
 
 namespace {
 
 constexpr const char *interop_id = "colorInteropID", *oiio_space = "oiio:ColorSpace";
 
-std::string text_of(const Imf::Header &header, const char *name) {
-    const auto *attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
-    const std::string text = attribute ? attribute->value() : "";
+std::string space_in(const Imf::Header &header, const char *name) {
+    const std::string text = text_attribute(header, name);
     return text == "unknown" || text == "data" ? "" : text;
 }
 
 } // namespace
 
 bool states_space(const Imf::Header &header) {
-    return Imf::hasChromaticities(header) || !text_of(header, interop_id).empty() ||
-           !text_of(header, oiio_space).empty();
+    return Imf::hasChromaticities(header) || !space_in(header, interop_id).empty() ||
+           !space_in(header, oiio_space).empty();
 }
 
 std::optional<StatedSpace> stated_space(const ColourConfig &config, const Imf::Header &header) {
     if (Imf::hasChromaticities(header))
         return StatedSpace{"chromaticities", config.linear_space(Imf::chromaticities(header))};
-    if (const std::string id = text_of(header, interop_id); !id.empty())
+    if (const std::string id = space_in(header, interop_id); !id.empty())
         return StatedSpace{interop_id, config.space_named(id)};
-    if (const auto space = config.space_named(text_of(header, oiio_space)))
+    if (const auto space = config.space_named(space_in(header, oiio_space)))
         return StatedSpace{oiio_space, space};
     return {};
 }
@@ -338,7 +335,7 @@ Imf::Header with_space(const ColourConfig &config, const Imf::Header &header, co
         result = without_attribute(header, "chromaticities");
     for (const char *name : {interop_id, oiio_space}) {
         const bool is_there = header.find(name) != header.end();
-        if (!is_there || config.space_named(text_of(header, name)) == config.space_named(space)) continue;
+        if (!is_there || config.space_named(space_in(header, name)) == config.space_named(space)) continue;
         const std::string id = name == interop_id ? config.interop_id(space) : "";
         if (id.empty())
             result = without_attribute(result, name);

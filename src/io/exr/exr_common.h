@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "io/exr/exr_header.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/file_stream.h"
 
@@ -116,6 +117,17 @@ inline Imf::MultiPartInputFile open_exr(Imf::IStream &stream) {
 #else
     return Imf::MultiPartInputFile(stream);
 #endif
+}
+
+// Calls work(file, stream) with the EXR file of that name, whose headers are checked. Throws Error, naming the file.
+template <typename Work>
+auto with_exr(const std::string &path, const Work &work) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        check_header(*stream, path);
+        Imf::MultiPartInputFile file = open_exr(*stream);
+        return work(file, *stream);
+    });
 }
 
 } // namespace sparselens

@@ -38,11 +38,6 @@ double memory_held_by(const Ldi &ldi) {
            double(ldi.begin.back()) * double((ldi.values.size() + 5) * sizeof(float));
 }
 
-void premultiply(Ldi &ldi) {
-    const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
-    premultiply(ldi.channels, planes);
-}
-
 // The parts of one view as one picture, see read_ldi().
 class DeepPicture {
 public:
@@ -208,11 +203,8 @@ LdiFile read_flat_as_ldi(const DeepSource &source, const PictureChoice &choice) 
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice) { return read_ldi(path, choice, {}); }
 
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce) {
-    return with_file_name(path, [&] {
-        const auto stream = open_input(path);
-        check_header(*stream, path);
-        Imf::MultiPartInputFile file = open_exr(*stream);
-        const DeepSource source{file, *stream, path, stream->bytes()};
+    return with_exr(path, [&](Imf::MultiPartInputFile &file, const InputStream &stream) {
+        const DeepSource source{file, stream, path, stream.bytes()};
         const std::vector<int> deep = deep_parts(file);
         if (deep.empty()) return read_flat_as_ldi(source, choice);
         if (!choice.depth_file.empty())

@@ -23,23 +23,6 @@
 
 namespace sparselens {
 
-// Keeps rows of a deep part that are read one after the other: as samples, or packed if they are many.
-class KeptRows {
-public:
-    // `most`: the number of samples in the file.
-    KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed);
-    void add(Ldi rows);
-    void drop(); // drops all rows of the LDI
-
-private:
-    bool takes_much() const;
-    void pack();
-
-    Ldi &ldi_;
-    std::uint64_t most_;
-    std::optional<PackedRows> &packed_;
-};
-
 namespace {
 
 // The memory into which each channel of a file is read. Channels that are not listed are not read.
@@ -202,6 +185,49 @@ Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const 
     return rows;
 }
 
+// Reserves room for as many samples as the file has; it takes no memory before it is used.
+void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
+    ldi.channels = rows.channels;
+    ldi.values.resize(rows.values.size());
+    const std::uint64_t before = ldi.begin.back();
+    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel)
+        ldi.begin.push_back(before + rows.begin[pixel + 1]);
+    const std::vector<std::vector<float> *> to = arrays_of(ldi), from = arrays_of(rows);
+    parallel_for(to.size(), [&](std::size_t k) {
+        if (!from[k]->empty()) to[k]->reserve(most);
+        to[k]->insert(to[k]->end(), from[k]->begin(), from[k]->end());
+    });
+}
+
+// Keeps rows of a deep part that are read one after the other: as samples, or packed if they are many.
+class KeptRows {
+public:
+    // `most`: the number of samples in the file.
+    KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed)
+        : ldi_(ldi), most_(most), packed_(packed) {
+        ldi.begin.assign(1, 0);
+        ldi.begin.reserve(ldi.windows.pixels() + 1);
+    }
+    void add(Ldi rows) {
+        if (packed_) return packed_->append(rows);
+        append_rows(ldi_, std::move(rows), most_);
+        if (bytes_to_gather(ldi_.samples(), ldi_.channels) <= memory_to_gather(most_, ldi_.windows.pixels()))
+            return;
+        packed_.emplace(ldi_.windows);
+        packed_->append(ldi_);
+        drop();
+    }
+    void drop() { // all rows of the LDI
+        for (std::vector<float> *array : arrays_of(ldi_)) std::vector<float>().swap(*array);
+        ldi_.begin.assign(ldi_.windows.pixels() + 1, 0);
+    }
+
+private:
+    Ldi &ldi_;
+    std::uint64_t most_;
+    std::optional<PackedRows> &packed_;
+};
+
 // `ldi` has its windows; this fills the rest.
 void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vector<FileChannel> &channels,
                   const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed) {
@@ -251,12 +277,6 @@ void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &pl
 } // namespace
 
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth) {
-    std::optional<PackedRows> packed;
-    return read_deep_part(source, number, channels, depth, {}, packed);
-}
-
-Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
                    const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed) {
     const Imf::Header &header = source.file.header(number);
     Ldi ldi;
@@ -288,51 +308,6 @@ Ldi ldi_of_flat(const Image &image, const std::string &depth) {
         values->assign(plane.begin(), plane.end());
     }
     return ldi;
-}
-
-namespace {
-
-// Reserves room for as many samples as the file has; it takes no memory before it is used.
-void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
-    ldi.channels = rows.channels;
-    ldi.values.resize(rows.values.size());
-    const std::uint64_t before = ldi.begin.back();
-    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel)
-        ldi.begin.push_back(before + rows.begin[pixel + 1]);
-    const std::vector<std::vector<float> *> to = arrays_of(ldi), from = arrays_of(rows);
-    parallel_for(to.size(), [&](std::size_t k) {
-        if (!from[k]->empty()) to[k]->reserve(most);
-        to[k]->insert(to[k]->end(), from[k]->begin(), from[k]->end());
-    });
-}
-
-} // namespace
-
-KeptRows::KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed)
-    : ldi_(ldi), most_(most), packed_(packed) {
-    ldi.begin.assign(1, 0);
-    ldi.begin.reserve(ldi.windows.pixels() + 1);
-}
-
-void KeptRows::add(Ldi rows) {
-    if (packed_) return packed_->append(rows);
-    append_rows(ldi_, std::move(rows), most_);
-    if (takes_much()) pack();
-}
-
-bool KeptRows::takes_much() const {
-    return bytes_to_gather(ldi_.samples(), ldi_.channels) > memory_to_gather(most_, ldi_.windows.pixels());
-}
-
-void KeptRows::pack() {
-    packed_.emplace(ldi_.windows);
-    packed_->append(ldi_);
-    drop();
-}
-
-void KeptRows::drop() {
-    for (std::vector<float> *array : arrays_of(ldi_)) std::vector<float>().swap(*array);
-    ldi_.begin.assign(ldi_.windows.pixels() + 1, 0);
 }
 
 } // namespace sparselens

@@ -35,8 +35,6 @@ using ReduceRows = std::function<std::optional<Ldi>(Ldi rows)>;
 // are read at a time, and its results are kept, in `packed` if they are large, and then the LDI has no samples. If
 // `reduce` returns nothing for some rows, the LDI has no samples either, and the remaining rows are not read.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth);
-Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
                    const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed);
 
 // A flat picture as an LDI of one sample per pixel.

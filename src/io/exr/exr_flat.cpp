@@ -218,12 +218,6 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     return k;
 }
 
-std::vector<std::span<float>> planes_of(Image &image) {
-    std::vector<std::span<float>> planes;
-    for (std::size_t k = 0; k < image.channels.size(); ++k) planes.push_back(image.plane(k));
-    return planes;
-}
-
 // For the first channel of which that is true.
 std::string why_ids_are_lost(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
     for (const PartChannels &part : picture.parts)
@@ -254,34 +248,25 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     add_mean_coverage(image);
     FlatFile result{std::move(image), header, size, std::move(picture.notes), std::move(picture.warnings)};
     if (!choice.depth_file.empty()) put_depth_of_file(result, path, choice, read_depth_file(choice));
-    if (choice.unpremultiplied) premultiply(result.image.channels, planes_of(result.image));
+    if (choice.unpremultiplied) premultiply(result.image);
     return result;
 }
 
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice) {
-    return with_file_name(path, [&] {
-        const auto stream = open_input(path);
-        check_header(*stream, path);
-        Imf::MultiPartInputFile file = open_exr(*stream);
-        return read_flat_part(file, path, stream->bytes(), choice);
+    return with_exr(path, [&](Imf::MultiPartInputFile &file, const InputStream &stream) {
+        return read_flat_part(file, path, stream.bytes(), choice);
     });
 }
 
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice) {
-    return with_file_name(path, [&] {
-        const auto stream = open_input(path);
-        check_header(*stream, path);
-        Imf::MultiPartInputFile file = open_exr(*stream);
+    return with_exr(path, [&](Imf::MultiPartInputFile &file, const InputStream &) {
         return header_of(file, parts_of_picture(file, path, choice), path);
     });
 }
 
 bool is_deep_alone(const std::string &path) {
     if (is_read_once(path)) return false;
-    return with_file_name(path, [&] {
-        const auto stream = open_input(path);
-        check_header(*stream, path);
-        const Imf::MultiPartInputFile file = open_exr(*stream);
+    return with_exr(path, [&](const Imf::MultiPartInputFile &file, const InputStream &) {
         for (int part = 0; part < file.parts(); ++part)
             if (is_flat(file.header(part))) return false;
         return true;

@@ -122,6 +122,11 @@ const HeaderValue *find_value(const std::vector<HeaderValue> &values, const std:
     return found == values.end() ? nullptr : &*found;
 }
 
+std::string text_attribute(const Imf::Header &header, const char *name) {
+    const auto *text = header.findTypedAttribute<Imf::StringAttribute>(name);
+    return text ? text->value() : std::string();
+}
+
 Imf::Header without_attribute(const Imf::Header &header, const std::string &name) {
     Imf::Header result;
     for (auto i = header.begin(); i != header.end(); ++i)

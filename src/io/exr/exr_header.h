@@ -28,6 +28,9 @@ std::vector<HeaderValue> header_values(const Imf::Header &header);
 // The first value whose key is `name`, in any case, or null. A * in `name` stands for one part between slashes.
 const HeaderValue *find_value(const std::vector<HeaderValue> &values, const std::string &name);
 
+// The text of that attribute; empty if there is none.
+std::string text_attribute(const Imf::Header &header, const char *name);
+
 // The header without the attribute of that name, which must not be one that every header has. In OpenEXR 3.1
 // Header::erase() leaks what it removes.
 Imf::Header without_attribute(const Imf::Header &header, const std::string &name);

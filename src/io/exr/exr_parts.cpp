@@ -178,28 +178,23 @@ Imf::Header header_of_view(const Imf::Header &header, const std::string &view) {
 
 namespace {
 
-// The result of find(file, numbers of its parts) on the headers.
-template <typename Find>
-auto in_headers(const std::string &path, const Find &find) {
-    return with_file_name(path, [&] {
-        const auto stream = open_input(path);
-        check_header(*stream, path);
-        const Imf::MultiPartInputFile file(*stream);
-        std::vector<int> parts(std::size_t(file.parts()));
-        std::iota(parts.begin(), parts.end(), 0);
-        return find(file, parts);
-    });
+std::vector<int> all_parts(const Imf::MultiPartInputFile &file) {
+    std::vector<int> parts(std::size_t(file.parts()));
+    std::iota(parts.begin(), parts.end(), 0);
+    return parts;
 }
 
 } // namespace
 
 std::vector<std::string> stereo_views(const std::string &path) {
-    return in_headers(path, [](const auto &file, const auto &parts) { return all_views(file, parts); });
+    return with_exr(path, [](const Imf::MultiPartInputFile &file, const InputStream &) {
+        return all_views(file, all_parts(file));
+    });
 }
 
 std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view) {
-    return in_headers(path, [&](const auto &file, const auto &parts) {
-        const PartsOfView of_view = parts_of_view(file, parts, stereo_view, path);
+    return with_exr(path, [&](const Imf::MultiPartInputFile &file, const InputStream &) {
+        const PartsOfView of_view = parts_of_view(file, all_parts(file), stereo_view, path);
         std::vector<std::string> names;
         for (const PictureLayer &picture :
              pictures_in(full_channels(file, of_view.numbers, of_view.view, path)))
