@@ -82,6 +82,12 @@ std::string upper_case(std::string text) {
     return text;
 }
 
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string single_quoted(std::string_view text) {
     std::string result = "'";
     for (const char c : text) {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace sparselens {
@@ -29,6 +32,17 @@ std::string nearest_word(std::string_view given, std::span<const std::string> wo
 // be empty.
 using Spelling = std::function<std::string(const std::string &name, const std::string &value)>;
 std::string spelled(std::string_view message, const Spelling &spelling);
+
+// The text without the blanks around it.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n");
+
+// The number that the text is; nothing if there is anything else in it.
+template <typename Number>
+std::optional<Number> number_of(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
 
 // Whether `word` is one of `words`, a range of strings.
 bool is_among(const auto &words, std::string_view word) {

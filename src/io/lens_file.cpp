@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/grid.h"
+#include "base/text.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "io/files/text_file.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -98,12 +98,10 @@ private:
                     bool (*valid)(double)) const {
         std::map<double, double> by_stops; // log2 of the f-number
         for (const auto &[text, v] : value.items()) {
-            double fstop = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), fstop);
-            if (error != std::errc() || end != text.data() + text.size() || !(fstop > 0) ||
-                !std::isfinite(fstop))
+            const auto fstop = number_of<double>(text);
+            if (!fstop || !(*fstop > 0) || !std::isfinite(*fstop))
                 refuse(key + "' for '" + text, v, "for an f-number, e.g. \"1.4\"");
-            by_stops[std::log2(fstop)] = plain_number(key, v, range, valid);
+            by_stops[std::log2(*fstop)] = plain_number(key, v, range, valid);
         }
         if (by_stops.empty()) refuse(key, value, range);
         if (!fstop_)
@@ -174,9 +172,8 @@ constexpr int most_pixels = 2048;
 
 // The channels that weigh R, G and B.
 std::array<std::size_t, 3> weight_channels(const Image &image, const std::string &path) {
-    std::array<std::size_t, 3> rgb{find_channel(image.channels, "R"), find_channel(image.channels, "G"),
-                                   find_channel(image.channels, "B")};
-    if (rgb[0] != npos && rgb[1] != npos && rgb[2] != npos) return rgb;
+    std::array<std::size_t, 3> rgb = find_rgb(image.channels);
+    if (all_found(rgb)) return rgb;
     std::size_t only = find_channel(image.channels, "Y"), others = 0;
     for (std::size_t k = 0; k < image.channels.size() && only == npos; ++k)
         if (image.channels[k].name != "A") rgb.fill(k), ++others;

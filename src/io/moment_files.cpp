@@ -1,6 +1,7 @@
 #include "io/moment_files.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
 #include "io/files/text_file.h"
@@ -33,9 +34,7 @@ std::optional<int> number_in(std::string_view text) {
     if (text.empty() || text.size() > most_digits ||
         text.find_first_not_of("0123456789") != std::string_view::npos)
         return {};
-    int number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    return number;
+    return number_of<int>(text);
 }
 
 // The numbers of files that exist, with their spelling.

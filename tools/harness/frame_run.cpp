@@ -103,7 +103,6 @@ void say_stage(ProgressFormat format, const ToolContext &tool, const char *stage
 ToolContext context_of(const std::string &name, const FrameCommand &command) {
     ToolContext tool;
     tool.tool_name = name;
-    tool.threads = command.process.threads;
     tool.verbose = command.process.verbose;
     tool.max_memory = command.process.max_memory;
     tool.stats = command.frames.stats;
@@ -137,7 +136,7 @@ int run_words(const std::string &name, const std::string &description, const std
     for (const std::string &text : commands->warnings()) warn(context_of(name, *first), text);
 
     const ProgressFormat format = first->frames.progress;
-    const Process process(first->process, context_of(name, *first));
+    set_up_process(first->process, context_of(name, *first));
     const auto warned = std::make_shared<std::set<std::string>>();
     int worst = 0;
     for (std::size_t i = 0; i < count; ++i) {

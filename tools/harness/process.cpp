@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "harness/commands/frames.h"
-#include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
 
@@ -207,31 +206,19 @@ int threads_that_start(int most) {
 
 } // namespace
 
-class Process::ThreadLimit {
-public:
-    explicit ThreadLimit(int threads)
-        : limit_(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {}
-
-private:
-    tbb::global_control limit_;
-};
-
-Process::Process(const ProcessOptions &options, const ToolContext &tool) {
+void set_up_process(const ProcessOptions &options, const ToolContext &tool) {
     keep_freed_memory();
     const int wanted = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     // With n threads, oneTBB starts n - 1 and OpenEXR n.
     const int threads = wanted > 1 ? std::max(1, (threads_that_start(2 * wanted - 1) + 1) / 2) : 1;
-    threads_ = std::make_unique<ThreadLimit>(threads);
+    // Limits are never destroyed: oneTBB would start threads then, even where the system allows none.
+    static auto &limits = *new std::vector<const tbb::global_control *>; // no leak, as it can be reached
+    limits.push_back(
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)));
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
     set_memory_limit(options.max_memory);
     handle_signals();
     tool.say(fmt::format("threads: {}", threads));
-}
-
-// The limit is never destroyed: oneTBB would start threads then, even where the system allows none.
-Process::~Process() {
-    static auto &kept = *new std::vector<const ThreadLimit *>; // no leak, as it can be reached
-    kept.push_back(threads_.release());
 }
 
 int exit_code_of(const std::string &prefix, const std::function<void()> &work) {

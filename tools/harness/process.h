@@ -1,6 +1,7 @@
 // Sets up the process of a tool before its job and reports after it.
 #pragma once
 
+#include "harness/progress_lines.h"
 #include "harness/tool.h"
 
 #include <cstdint>
@@ -30,16 +31,8 @@ std::string prefix_of(const std::string &name, const std::vector<std::string> &w
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix);
 
-// Sets threads, memory limit and signal handlers for the lifetime of the object.
-class Process {
-public:
-    explicit Process(const ProcessOptions &options, const ToolContext &tool);
-    ~Process();
-
-private:
-    class ThreadLimit;
-    std::unique_ptr<ThreadLimit> threads_;
-};
+// Sets threads, memory limit and signal handlers.
+void set_up_process(const ProcessOptions &options, const ToolContext &tool);
 
 // The memory for frames held at the same time, in bytes: --max-memory, else a quarter of the machine's memory.
 std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory);

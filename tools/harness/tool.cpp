@@ -75,10 +75,9 @@ int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &w
     ToolContext tool;
     tool.tool_name = app.get_name();
     tool.verbose = options.verbose;
-    tool.threads = options.threads;
     tool.max_memory = options.max_memory;
     tool.command_line = command_line(tool.tool_name, words);
-    const Process process(options, tool);
+    set_up_process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
     return exit_code_of(prefix, [&] {
         const NamedFiles files = named_files(app);

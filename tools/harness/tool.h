@@ -24,7 +24,6 @@
 namespace sparselens {
 
 struct ToolContext {
-    int threads = 0;                         // 0: all that the process may use
     bool verbose = false;                    // report on stderr what was found and done
     std::optional<std::uint64_t> max_memory; // bytes for reading a file; empty: set by its size
     std::unique_ptr<Progress> progress = std::make_unique<Progress>(); // never null

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "gpu/device_list.h"
 #include "harness/progress_lines.h"
+#include "harness/tool.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,15 +42,9 @@ CLI::Validator output_name(OutputKind kind) {
 
 void add_type_option(CLI::App &app, std::optional<PixelType> &type) {
     const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
-    const auto read = [&type, types](const std::string &text) {
-        const auto found = types.find(text);
-        if (found == types.end())
-            throw CLI::ValidationError("-d", fmt::format("must be one of float, half, not '{}'", text));
-        type = found->second;
-    };
-    app.add_option_function<std::string>("-d", read,
-                                         "Type of the channels written (default: that of the input)")
-        ->type_name("half|float");
+    app.add_option("-d", type, "Type of the channels written (default: that of the input)")
+        ->type_name("half|float")
+        ->transform(words(types));
 }
 
 void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep) {

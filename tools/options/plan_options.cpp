@@ -1,5 +1,6 @@
 #include "options/plan_options.h"
 
+#include "base/text.h"
 #include "harness/commands/file_arguments.h"
 #include "harness/tool.h"
 #include "options/picture_options.h"
@@ -7,8 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <charconv>
 
 namespace sparselens {
 
@@ -25,16 +24,13 @@ CLI::Validator camera_file() {
 }
 
 Imath::V2i size_of(const std::string &text) {
-    const char *at = text.data(), *const end = at + text.size();
-    const auto read = [&](int &side) {
-        const auto [stop, error] = std::from_chars(at, end, side);
-        at = stop;
-        return error == std::errc() && side >= 1 && side <= 1 << 20;
-    };
-    Imath::V2i size;
-    if (!read(size.x) || at == end || *at++ != 'x' || !read(size.y) || at != end)
+    const std::size_t x = text.find('x');
+    const auto width = number_of<int>(text.substr(0, x)),
+               height = number_of<int>(x == text.npos ? "" : text.substr(x + 1));
+    const auto is_side = [](const std::optional<int> &side) { return side >= 1 && side <= 1 << 20; };
+    if (!is_side(width) || !is_side(height))
         throw CLI::ValidationError("--size", "must be WIDTHxHEIGHT (e.g. 640x360), not '" + text + "'");
-    return size;
+    return {*width, *height};
 }
 
 } // namespace

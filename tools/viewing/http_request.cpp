@@ -1,5 +1,7 @@
 #include "viewing/http_request.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +20,6 @@ std::string_view cut(std::string_view &rest, std::string_view mark) {
     const std::string_view before = rest.substr(0, at);
     rest = at == std::string_view::npos ? std::string_view() : rest.substr(at + mark.size());
     return before;
-}
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 bool same_word(std::string_view a, std::string_view b) {
@@ -77,7 +72,7 @@ std::size_t read_headers(std::string_view lines, HttpRequest &request) {
         std::string_view value = cut(lines, line_end);
         if (value.find(':') == std::string_view::npos) throw HttpRefusal{400, "a header has no colon"};
         const std::string_view name = cut(value, ":");
-        value = trimmed(value);
+        value = trimmed(value, " \t");
         if (same_word(name, "Host")) put_once(request.host, value);
         if (same_word(name, "Origin")) put_once(request.origin, value);
         if (same_word(name, "X-Sparselens-Key")) put_once(key, value);

@@ -91,29 +91,28 @@ Imath::Box2i region_of(const Json &value) {
 
 } // namespace
 
+bool take_by_name(const Json &object, const ByName &functions) {
+    for (const auto &[name, value] : object.items()) {
+        const auto found = functions.find(name);
+        if (found == functions.end()) return false;
+        found->second(value);
+    }
+    return true;
+}
+
 PageRequest parse_page_request(std::string_view text) {
     if (text.size() > most_request_bytes) refuse("it is too long");
     const Json json = Json::parse(text, nullptr, false); // no exceptions
     if (!json.is_object()) refuse("it is not an object of JSON");
     PageRequest wanted;
-    for (const auto &[name, value] : json.items()) {
-        if (name == "page")
-            wanted.page = page_of(value);
-        else if (name == "settings")
-            wanted.settings = settings_of(value);
-        else if (name == "frame")
-            wanted.frame = frame_of(value);
-        else if (name == "format")
-            wanted.format = format_of(value);
-        else if (name == "exposure")
-            wanted.exposure = exposure_of(value);
-        else if (name == "pixel")
-            wanted.pixel = pixel_of(value);
-        else if (name == "region")
-            wanted.region = region_of(value);
-        else
-            refuse("it has a name that is unknown");
-    }
+    const ByName functions{{"page", [&](const Json &value) { wanted.page = page_of(value); }},
+                           {"settings", [&](const Json &value) { wanted.settings = settings_of(value); }},
+                           {"frame", [&](const Json &value) { wanted.frame = frame_of(value); }},
+                           {"format", [&](const Json &value) { wanted.format = format_of(value); }},
+                           {"exposure", [&](const Json &value) { wanted.exposure = exposure_of(value); }},
+                           {"pixel", [&](const Json &value) { wanted.pixel = pixel_of(value); }},
+                           {"region", [&](const Json &value) { wanted.region = region_of(value); }}};
+    if (!take_by_name(json, functions)) refuse("it has a name that is unknown");
     if (wanted.page.empty()) refuse("it says no page");
     return wanted;
 }

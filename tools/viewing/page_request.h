@@ -7,7 +7,9 @@
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
+#include <nlohmann/json_fwd.hpp>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +36,10 @@ inline constexpr std::size_t most_request_bytes = 16384; // bytes
 // Parses a request. Throws UsageError with the reason if the text is invalid. Values may hold only letters, digits and
 // "+-.,_", so a page cannot name a file.
 PageRequest parse_page_request(std::string_view text);
+
+// Calls the function for each name in an object of JSON with its value. Returns false if there is none for a name.
+using ByName = std::map<std::string, std::function<void(const nlohmann::json &value)>>;
+bool take_by_name(const nlohmann::json &object, const ByName &functions);
 
 // The picture on a page, as the words of a dof-gather command line: the server's own words, and the page's settings. So
 // a page can set only what a command line can say, and every picture has a command.

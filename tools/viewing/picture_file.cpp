@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -62,20 +61,13 @@ std::string keys_of(const Json &object) {
     return keys;
 }
 
-std::optional<int> whole_number(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
-    return number;
-}
-
 // The number at the end of a name, after a dot or a low line: 12 of shot.0012.dof.
 std::optional<int> number_at_end(const std::string &file) {
     const std::string stem = fs::path(file).stem().string();
     const std::size_t before = stem.find_last_not_of("0123456789");
     if (before == std::string::npos || std::string_view("._").find(stem[before]) == std::string_view::npos)
         return {};
-    return whole_number(std::string_view(stem).substr(before + 1));
+    return number_of<int>(std::string_view(stem).substr(before + 1));
 }
 
 Settings settings_in_query(const std::string &query) {
@@ -221,7 +213,7 @@ Words words_of(const PictureSource &source, const Presets &presets) {
     Settings query = settings_in_query(source.query);
     std::optional<int> frame = is_dof ? number_at_end(source.file) : std::nullopt;
     if (const auto given = query.extract("frame")) {
-        frame = whole_number(given.mapped());
+        frame = number_of<int>(given.mapped());
         if (!frame) refuse("the query", "frame", "must be a whole number");
     }
     if (source.frame) frame = source.frame;

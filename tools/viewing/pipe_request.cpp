@@ -79,53 +79,21 @@ float aspect_of(const Json &value) {
 HandedLayout layout_of(const Json &object) {
     if (!object.is_object()) refuse("picture is not an object of JSON");
     HandedLayout layout;
-    for (const auto &[name, value] : object.items()) {
-        if (name == "display")
-            layout.windows.display = box_of(value);
-        else if (name == "data")
-            layout.windows.data = box_of(value);
-        else if (name == "channels")
-            layout.channels = channels_of(value);
-        else if (name == "pixel_aspect")
-            layout.windows.pixel_aspect = aspect_of(value);
-        else if (name == "shown")
-            layout.shown = flag_of(value, "shown");
-        else
-            refuse("its picture has a name that is unknown");
-    }
-    if (layout.windows.display.isEmpty() || layout.windows.data.isEmpty() || layout.channels.empty())
+    Windows &windows = layout.windows;
+    const ByName functions{
+        {"display", [&](const Json &value) { windows.display = box_of(value); }},
+        {"data", [&](const Json &value) { windows.data = box_of(value); }},
+        {"channels", [&](const Json &value) { layout.channels = channels_of(value); }},
+        {"pixel_aspect", [&](const Json &value) { windows.pixel_aspect = aspect_of(value); }},
+        {"shown", [&](const Json &value) { layout.shown = flag_of(value, "shown"); }}};
+    if (!take_by_name(object, functions)) refuse("its picture has a name that is unknown");
+    const Imath::Box2i &data = windows.data;
+    if (windows.display.isEmpty() || data.isEmpty() || layout.channels.empty())
         refuse("its picture needs display, data and channels");
-    const Imath::Box2i &data = layout.windows.data;
     constexpr std::int64_t most = 1 << 17; // pixels along a side
     if (std::int64_t{data.max.x} - data.min.x >= most || std::int64_t{data.max.y} - data.min.y >= most)
         refuse("its picture is too large");
     return layout;
-}
-
-void take(PipeRequest &request, const std::string &name, const Json &value) {
-    constexpr int most_frame = 9'999'999;
-    if (name == "ask")
-        request.ask = ask_of(value);
-    else if (name == "file")
-        request.source.file = text_of(value, "file");
-    else if (name == "settings")
-        request.source.settings = settings_in(value, "settings");
-    else if (name == "query")
-        request.source.query = text_of(value, "query");
-    else if (name == "frame")
-        request.source.frame = whole_number(value, "frame", -most_frame, most_frame);
-    else if (name == "level")
-        request.level = whole_number(value, "level", 0, most_levels - 1);
-    else if (name == "box")
-        request.box = box_of(value);
-    else if (name == "channels")
-        request.channels = channels_of(value);
-    else if (name == "shown")
-        request.shown = flag_of(value, "shown");
-    else if (name == "picture")
-        request.handed = layout_of(value);
-    else
-        refuse("it has a name that is unknown");
 }
 
 } // namespace
@@ -139,9 +107,24 @@ PipeRequest parse_pipe_request(std::string_view text) {
     if (!json.is_object()) refuse("it is not an object of JSON");
     if (!json.contains("ask")) refuse("it has no ask");
     PipeRequest request;
-    for (const auto &[name, value] : json.items()) take(request, name, value);
-    if (request.source.file.empty() && !request.handed) refuse("it names no file");
-    if (!request.source.file.empty() && request.handed) refuse("it has a file and a picture");
+    PictureSource &source = request.source;
+    constexpr int most_frame = 9'999'999;
+    const ByName functions{
+        {"ask", [&](const Json &value) { request.ask = ask_of(value); }},
+        {"file", [&](const Json &value) { source.file = text_of(value, "file"); }},
+        {"settings", [&](const Json &value) { source.settings = settings_in(value, "settings"); }},
+        {"query", [&](const Json &value) { source.query = text_of(value, "query"); }},
+        {"frame",
+         [&](const Json &value) { source.frame = whole_number(value, "frame", -most_frame, most_frame); }},
+        {"level",
+         [&](const Json &value) { request.level = whole_number(value, "level", 0, most_levels - 1); }},
+        {"box", [&](const Json &value) { request.box = box_of(value); }},
+        {"channels", [&](const Json &value) { request.channels = channels_of(value); }},
+        {"shown", [&](const Json &value) { request.shown = flag_of(value, "shown"); }},
+        {"picture", [&](const Json &value) { request.handed = layout_of(value); }}};
+    if (!take_by_name(json, functions)) refuse("it has a name that is unknown");
+    if (source.file.empty() && !request.handed) refuse("it names no file");
+    if (!source.file.empty() && request.handed) refuse("it has a file and a picture");
     if ((request.ask == Ask::tile) != request.box.has_value())
         refuse("a tile has a box, and nothing else has");
     return request;

@@ -10,6 +10,7 @@
 #include "io/lens_file.h"
 #include "io/moment_files.h"
 #include "options/gather_options.h"
+#include "options/match_options.h"
 #include "viewing/sequence.h"
 
 #include <fmt/format.h>
@@ -169,7 +170,7 @@ PipeService::Answer PipeService::facts(const Job &job) {
     shot.depths = depth_extent(cache_.load(middle_moment(job.command), quiet).ldi);
     Json said = lens_facts(shot);
     said.update(
-        {{"nearest", json_number(shot.depths.nearest)}, {"farthest", json_number(shot.depths.farthest)}});
+        {{"nearest", finite_json(shot.depths.nearest)}, {"farthest", finite_json(shot.depths.farthest)}});
     return {std::move(said), {}};
 }
 

@@ -10,6 +10,7 @@
 #include "harness/progress_lines.h"
 #include "io/moment_files.h"
 #include "lens/thin_lens.h"
+#include "options/match_options.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -176,21 +177,19 @@ Json short_number(float value) {
 
 } // namespace
 
-Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
-
 Json lens_facts(const SequencePicture &picture) {
     const ThinLens &lens = picture.lens;
     const SharpRange sharp = sharp_range(lens, sharp_px);
     const double largest = std::max(std::abs(circle_of_confusion(lens, picture.depths.nearest)),
                                     std::abs(circle_of_confusion(lens, picture.depths.farthest)));
-    Json facts{{"focus", json_number(lens.focus)},
+    Json facts{{"focus", finite_json(lens.focus)},
                {"radius", lens.radius},
-               {"near", json_number(sharp.near)},
-               {"far", json_number(sharp.far)},
-               {"hyperfocal", json_number(sharp.hyperfocal)},
-               {"largest_coc", json_number(largest)},
+               {"near", finite_json(sharp.near)},
+               {"far", finite_json(sharp.far)},
+               {"hyperfocal", finite_json(sharp.hyperfocal)},
+               {"largest_coc", finite_json(largest)},
                {"warnings", picture.warnings}};
-    if (picture.camera.fstop) facts["fstop"] = json_number(*picture.camera.fstop);
+    if (picture.camera.fstop) facts["fstop"] = finite_json(*picture.camera.fstop);
     if (picture.camera.metres_per_unit) facts["metres_per_unit"] = *picture.camera.metres_per_unit;
     return facts;
 }
@@ -258,8 +257,8 @@ ObjectMap object_map(const LoadedFrame &frame) {
     for (const auto &[name, object] : objects) {
         const FocusFor sharp = focus_for(object.depths.nearest, object.depths.farthest);
         map.said["objects"][object.number - 1] = {{"name", name},
-                                                  {"focus", json_number(sharp.focus)},
-                                                  {"hyperfocal", json_number(sharp.hyperfocal)}};
+                                                  {"focus", finite_json(sharp.focus)},
+                                                  {"hyperfocal", finite_json(sharp.hyperfocal)}};
     }
     return map;
 }
@@ -276,10 +275,10 @@ Json sample_facts(const LoadedFrame &frame, const ThinLens &lens, const Imath::V
     for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at))) {
         const float z = ldi.z[i], seen_at = float(ldi.coc_z(i));
         Json colour = Json::array();
-        for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));
+        for (const std::size_t k : rgb) colour.emplace_back(finite_json(double(ldi.values[k][i])));
         Json sample{{"z", short_number(z)},
                     {"alpha", alpha == npos ? 1.0 : double(ldi.values[alpha][i])},
-                    {"coc", json_number(circle_of_confusion(lens, double(seen_at)))},
+                    {"coc", finite_json(circle_of_confusion(lens, double(seen_at)))},
                     {"rgb", colour},
                     {"objects", objects_of(ldi, i, frame.names)}};
         if (seen_at != z) sample["image"] = short_number(seen_at); // depth of the image

@@ -93,7 +93,4 @@ struct ObjectMap {
 };
 ObjectMap object_map(const LoadedFrame &frame);
 
-// A number that JSON can hold, else "inf".
-nlohmann::json json_number(double value);
-
 } // namespace sparselens

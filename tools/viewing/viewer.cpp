@@ -126,15 +126,15 @@ std::string Viewer::facts(const PageRequest &wanted) {
                {"plate", !options_.plate.empty()},
                {"save", !options_.save.empty()},
                {"objects", !frame->names.empty()},
-               {"nearest", json_number(frame->depths.nearest)},
-               {"farthest", json_number(frame->depths.farthest)}};
+               {"nearest", finite_json(frame->depths.nearest)},
+               {"farthest", finite_json(frame->depths.farthest)}};
     for (std::size_t i = 0; frames_.is_range() && i < frames_.size(); ++i)
         facts["frames"].push_back(frames_.number(i));
     if (!guess_.empty()) facts["guess"] = guess_in_words(guess_);
     if (camera.metres_per_unit) facts["metres_per_unit"] = *camera.metres_per_unit;
     if (command.blur) facts["blur"] = *command.blur;
-    if (camera.fstop) facts["fstop"] = json_number(*camera.fstop);
-    if (camera.focus_distance) facts["focus"] = json_number(*camera.focus_distance);
+    if (camera.fstop) facts["fstop"] = finite_json(*camera.fstop);
+    if (camera.focus_distance) facts["focus"] = finite_json(*camera.focus_distance);
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -269,7 +269,7 @@ std::string Viewer::samples(const PageRequest &wanted) {
         const Imath::V2i at = reduced({*wanted.pixel, *wanted.pixel}, last_->proxy).min;
         if (image.windows.data.intersects(at))
             for (std::size_t k = 0; k < image.channels.size(); ++k)
-                said["value"][image.channels[k].name] = json_number(double(image.at(k, at.x, at.y)));
+                said["value"][image.channels[k].name] = finite_json(double(image.at(k, at.x, at.y)));
     }
     return said.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

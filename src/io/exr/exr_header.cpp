@@ -291,14 +291,6 @@ namespace {
 
 constexpr const char *own_name = "sparselens:samples";
 
-// Parses a number such as "64".
-std::optional<double> count_of(std::string_view text) {
-    double count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size() || !(count > 0)) return {};
-    return count;
-}
-
 } // namespace
 
 std::optional<double> render_samples(const Imf::Header &header) {
@@ -309,7 +301,8 @@ std::optional<double> render_samples(const Imf::Header &header) {
         const std::string_view name = at.name();
         const auto *text = dynamic_cast<const Imf::StringAttribute *>(&at.attribute());
         if (!text || !name.starts_with("cycles.") || !name.ends_with(".samples")) continue;
-        if (const auto count = count_of(text->value())) most = std::max(most.value_or(0), *count);
+        if (const auto count = number_of<double>(text->value()); count > 0.0)
+            most = std::max(most.value_or(0), *count);
     }
     return most;
 }

@@ -1,6 +1,7 @@
 #include "harness/commands/frames.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "chain/parameters.h"
 #include "harness/commands/file_arguments.h"
 #include "io/moment_files.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -53,9 +53,7 @@ int width_of(const std::smatch &match) {
     if (sign == "#") return 4;
     if (sign.front() == '#' || sign.front() == '@') return int(std::min<std::size_t>(sign.size(), 32));
     const std::string digits = sign.front() == '$' ? match[4] : match[3];
-    int width = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), width);
-    return width;
+    return number_of<int>(digits).value_or(0);
 }
 
 std::optional<Place> find_place(const std::string &name, std::size_t from) {
@@ -110,10 +108,7 @@ std::optional<int> number_in(std::string_view file, std::string_view before, std
         return {};
     file.remove_prefix(before.size());
     file.remove_suffix(after.size());
-    int number = 0;
-    const auto [end, error] = std::from_chars(file.data(), file.data() + file.size(), number);
-    if (error != std::errc() || end != file.data() + file.size()) return {};
-    return number;
+    return number_of<int>(file);
 }
 
 struct OnDisk {

@@ -1,17 +1,16 @@
 #include "harness/commands/keys.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/files/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <sstream>
-#include <system_error>
 
 namespace sparselens {
 
@@ -19,21 +18,12 @@ namespace {
 
 constexpr std::ptrdiff_t most_digits = 9; // in a frame number
 
-// Parses the text as one number; nothing if anything else is in it.
-template <typename Number>
-std::optional<Number> whole_number(std::string_view text) {
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return {};
-    return value;
-}
-
 std::optional<KeyValue> parse_value(std::string_view text, KeyKind kind) {
     const bool two = kind != KeyKind::number;
     const std::size_t comma = two ? text.find(',') : text.size();
     if (comma == text.npos) return {};
-    const auto x = whole_number<double>(text.substr(0, comma));
-    const auto y = two ? whole_number<double>(text.substr(comma + 1)) : std::optional<double>(0);
+    const auto x = number_of<double>(text.substr(0, comma));
+    const auto y = two ? number_of<double>(text.substr(comma + 1)) : std::optional<double>(0);
     if (!x || !y) return {};
     const auto is_whole = [](double v) { return std::isfinite(v) && std::trunc(v) == v; };
     if (kind == KeyKind::pixel && !(is_whole(*x) && is_whole(*y))) return {};
@@ -45,7 +35,7 @@ bool add_key(Keys &keys, std::string_view text) {
     const std::size_t colon = text.find(':');
     if (colon == text.npos) return false;
     const std::string_view number = text.substr(0, colon);
-    const auto frame = whole_number<int>(number);
+    const auto frame = number_of<int>(number);
     const auto value = parse_value(text.substr(colon + 1), keys.kind);
     if (!frame || !value || std::ssize(number) > most_digits + (number.starts_with('-') ? 1 : 0))
         return false;
@@ -62,13 +52,6 @@ bool add_keys(Keys &keys, std::string_view text) {
         if (!add_key(keys, text.substr(from, to - from))) return false;
     }
     return !text.empty() && text.back() != separator;
-}
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(blank);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 // The name of the option in a file of JSON: "focus_distance" for --focus-distance.
