@@ -224,10 +224,9 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     append_history(file.header, tool, options.history);
     Stats stats = say_error(options, finished, tool);
     if (!options.ask.empty()) ask(options, finished, file.header, stats);
-    notify_clamped(tool.notify(), options.output,
-                   write_picture(tool.notify(), options.colour, options.output,
-                                 in_type(shown(std::move(finished), options.show), options.type), file.header,
-                                 options.compression));
+    write_picture(tool.notify(), options.colour, options.output,
+                  in_type(shown(std::move(finished), options.show), options.type), file.header,
+                  options.compression);
     write_stats(tool, stats);
 }
 

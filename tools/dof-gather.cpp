@@ -47,10 +47,8 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache,
     const Stats stats = gather_stats(cache, made);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, made.depth, made.header, options.compression, options.tiles);
-    notify_clamped(tool.notify(), options.output,
-                   write_picture(tool.notify(), options.colour, options.output,
-                                 in_type(std::move(made.image), options.type), made.header,
-                                 options.compression, options.tiles));
+    write_picture(tool.notify(), options.colour, options.output, in_type(std::move(made.image), options.type),
+                  made.header, options.compression, options.tiles);
     writing.reset();
     write_stats(tool, stats);
 }

@@ -2,7 +2,6 @@
 #include "base/error.h"
 #include "chain/notices.h"
 #include "chain/plan_views.h"
-#include "chain/usd_shot.h"
 #include "harness/commands/file_arguments.h"
 #include "harness/tool.h"
 #include "io/moment_files.h"

@@ -201,16 +201,15 @@ std::optional<ShownExtras> to_shown_colours(const ColourOptions &options, const 
     return kept.value_or(ShownExtras());
 }
 
-std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,
-                          Image image, const Imf::Header &metadata,
-                          std::optional<Imf::Compression> compression, int tiles) {
+void write_picture(const Notify &notify, const ColourOptions &options, const std::string &path, Image image,
+                   const Imf::Header &metadata, std::optional<Imf::Compression> compression, int tiles) {
     Imf::Header header = metadata;
     if (!is_shown_picture(path)) {
         to_exr_space(options, path, image, header);
         if (compression)
             if (const std::string channel = data_changed_by(*compression, image.channels); !channel.empty())
                 notify({NoticeKind::changed_data, path, {channel}, "compression"});
-        return write_flat_exr(path, image, header, compression, tiles);
+        return notify_clamped(notify, path, write_flat_exr(path, image, header, compression, tiles));
     }
     if (compression) throw UsageError("`compression` applies to EXR, not to " + path);
     if (tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
@@ -218,7 +217,6 @@ std::size_t write_picture(const Notify &notify, const ColourOptions &options, co
     const std::optional<ShownExtras> extras = to_shown_colours(options, path, image, header);
     if (extras) notify({NoticeKind::displayed, path});
     write_shown_picture(path, image, extras.value_or(ShownExtras()));
-    return 0;
 }
 
 namespace {

@@ -70,11 +70,10 @@ std::optional<ShownExtras> to_shown_colours(const ColourOptions &options, const 
 // linear light such as .hdr. PNG, JPEG, TIFF and the like are written in `output_colorspace`, or else through `display`
 // and `view_transform` (default: those of the configuration); those of a photograph without either in its own encoding,
 // with what its file holds beside its colours (io/photograph.h). `compression` is that of OpenEXR (compression.h). Throws
-// UsageError for a display with an OpenEXR file, and for a compression or tiles with any other. Returns what
-// write_flat_exr returns.
-std::size_t write_picture(const Notify &notify, const ColourOptions &options, const std::string &path,
-                          Image image, const Imf::Header &metadata,
-                          std::optional<Imf::Compression> compression = {}, int tiles = 0);
+// UsageError for a display with an OpenEXR file, and for a compression or tiles with any other.
+void write_picture(const Notify &notify, const ColourOptions &options, const std::string &path, Image image,
+                   const Imf::Header &metadata, std::optional<Imf::Compression> compression = {},
+                   int tiles = 0);
 
 // The light of a flat picture that belongs to another one: a beauty for deep samples, or a denoised view.
 struct LdiFromViews; // chain/make_ldi.h

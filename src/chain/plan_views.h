@@ -1,9 +1,12 @@
-// Plans which views are worth rendering in addition to the centre view, and how many moments of a shutter.
+// Plans which views are worth rendering in addition to the centre view, and how many moments of a shutter; and gives
+// the views of a shot as a layer of USD, from a camera of USD alone, or frame by frame from plans of centre views.
 #pragma once
 
 #include "chain/notices.h"
+#include "chain/stated_camera.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
+#include "io/usd/usd_views.h"
 #include "plan/block_motion.h"
 #include "plan/disocclusion.h"
 #include "plan/plan.h"
@@ -30,5 +33,20 @@ PlannedViews plan_views(const OpenedView &centre, PlanOptions options, const Len
 // not tell. Throws Error, naming both files, if their sizes differ.
 std::optional<MomentsNeed> plan_moments(const OpenedView &first, const OpenedView &last, std::size_t moments,
                                         const PlannedViews &planned, const LensValues &lens);
+
+struct ShotRequest {
+    CameraRequest camera; // without a frame: all frames of the camera
+    LensValues lens = {};
+    int views = 4;
+    std::optional<Imath::V2i> size = {}; // of the picture; empty: of the render settings
+};
+
+// The views of a camera of USD: an even ring on the rim of its lens. Throws UsageError if a value is unknown.
+UsdViews views_of_shot(const ShotRequest &request, const Notify &notify);
+
+// Adds the cameras of a plan at a frame, or of a still picture. Views of other lens points than before are added to
+// those of all frames. Throws Error, naming the centre view, if its camera's position is unknown, or if its size or
+// scene unit is not that of the frames before.
+void add_planned(UsdViews &views, const PlannedViews &planned, std::optional<int> frame);
 
 } // namespace sparselens

@@ -50,9 +50,8 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
     if (type && is_shown_picture(path)) throw UsageError("type: applies to EXR, not to " + path);
     set_type(picture.image.channels, type);
     job_with_notices<bool>(py::none(), [&](Progress &, const Notify &notify) {
-        notify_clamped(notify, path,
-                       sparselens::write_picture(notify, colour, path, std::move(picture.image),
-                                                 picture.header, compression, tiles));
+        sparselens::write_picture(notify, colour, path, std::move(picture.image), picture.header, compression,
+                                  tiles);
         return true;
     });
 }

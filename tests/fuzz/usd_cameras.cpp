@@ -1,5 +1,5 @@
 // Any bytes as cameras in JSON: read, placed, and made the views around them.
-#include "chain/usd_shot.h"
+#include "chain/plan_views.h"
 #include "fuzz/fuzz.h"
 #include "io/usd/usd_camera.h"
 

@@ -57,14 +57,12 @@ void require_pixel_file() {
             "--pipe: descriptor 3 must be a file for reading and writing, where pixels go (3<>FILE)");
 }
 
-bool write_all(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes.remove_prefix(std::size_t(written));
-    }
+// Returns false if nobody reads answers any more.
+bool say(int file, std::string_view answer) try {
+    write_all("--pipe", file, answer);
     return true;
+} catch (const Error &) {
+    return false;
 }
 
 // Reads the pixels that came with a request. Returns less if the file has less.
@@ -72,13 +70,7 @@ std::string take_pixels(std::size_t bytes) {
     struct stat info {};
     if (::fstat(pixel_file, &info) != 0) fail_of_system("the file for pixels", "cannot read");
     std::string pixels(std::min(bytes, std::size_t(info.st_size)), '\0');
-    for (std::size_t done = 0; done < pixels.size();) {
-        const ssize_t count = ::pread(pixel_file, pixels.data() + done, pixels.size() - done, off_t(done));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail_of_system("the file for pixels", "cannot read");
-        if (count == 0) pixels.resize(done);
-        done += std::size_t(count);
-    }
+    pixels.resize(read_at(pixel_file, pixels.data(), pixels.size(), 0));
     return pixels;
 }
 
@@ -202,7 +194,7 @@ void answer_pipe(const ToolContext &tool) {
     Lines lines(ends.requests);
     const Json greeting{{"sparselens", SPARSELENS_VERSION}, {"pipe", pipe_version}};
     std::optional<std::string> answer = answer_line(200, 0, greeting.dump());
-    for (; answer && write_all(ends.answers, *answer); answer = next_answer(service, lines)) {
+    for (; answer && say(ends.answers, *answer); answer = next_answer(service, lines)) {
     }
 }
 

@@ -45,16 +45,6 @@ void remove_unfinished() noexcept {
 
 namespace {
 
-void write_all(const std::string &path, int descriptor, const char *data, std::size_t size) {
-    while (size > 0) {
-        const ssize_t put = ::write(descriptor, data, size);
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail_of_system(path, "cannot write");
-        data += put;
-        size -= std::size_t(put);
-    }
-}
-
 // The mode of a file that a new one replaces; nothing if there is none. Throws Error if it is read-only: renaming would
 // replace it all the same.
 std::optional<mode_t> mode_to_keep(const std::string &target) {
@@ -85,6 +75,28 @@ std::filesystem::path follow_links(const std::string &path) {
 }
 
 } // namespace
+
+Descriptor::~Descriptor() { ::close(number_); }
+
+void write_all(const std::string &path, int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) fail_of_system(path, "cannot write");
+        bytes.remove_prefix(std::size_t(put));
+    }
+}
+
+std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t position) {
+    std::size_t got = 0;
+    while (got < most) {
+        const ssize_t more = ::pread(descriptor, to + got, most - got, off_t(position + got));
+        if (more < 0 && errno == EINTR) continue;
+        if (more <= 0) break;
+        got += std::size_t(more);
+    }
+    return got;
+}
 
 std::string find_installed(const std::string &relative) {
     namespace fs = std::filesystem;
@@ -135,7 +147,7 @@ public:
         }
     }
     void flush() {
-        write_all(fileName(), descriptor_, bytes_.data(), bytes_.size());
+        write_all(fileName(), descriptor_, {bytes_.data(), bytes_.size()});
         start_ += bytes_.size();
         position_ = 0;
         bytes_.clear();
@@ -241,31 +253,6 @@ private:
     std::shared_ptr<const std::vector<char>> bytes_;
     std::uint64_t position_ = 0;
 };
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() { ::close(number_); }
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
-// Reads bytes of a file from `position` on. Returns their number: fewer than `most` at the end, or if it cannot be
-// read.
-std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t position) {
-    std::size_t got = 0;
-    while (got < most) {
-        const ssize_t more = ::pread(descriptor, to + got, most - got, off_t(position + got));
-        if (more < 0 && errno == EINTR) continue;
-        if (more <= 0) break;
-        got += std::size_t(more);
-    }
-    return got;
-}
 
 // Reads small pieces, such as those of headers, through a buffer.
 class FileInput : public InputStream {

@@ -1,7 +1,6 @@
 #include "io/files/text_file.h"
 
 #include "base/error.h"
-#include "io/files/file_stream.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <limits>
 
 namespace sparselens {
@@ -72,24 +70,15 @@ std::string shown_in_message(const Json &value) {
     return text.size() <= longest_shown ? text : text.substr(0, longest_shown) + "...";
 }
 
-MemoryFile::MemoryFile(std::string_view contents) : descriptor_(::memfd_create("sparselens", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) fail_of_system("a file in memory", "cannot make");
-    while (!contents.empty()) {
-        const ssize_t written = ::write(descriptor_, contents.data(), contents.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) {
-            ::close(descriptor_);
-            fail_of_system("a file in memory", "cannot write");
-        }
-        contents.remove_prefix(std::size_t(written));
-    }
+MemoryFile::MemoryFile(std::string_view contents) : file_(::memfd_create("sparselens", MFD_CLOEXEC)) {
+    if (file_.number() < 0) fail_of_system("a file in memory", "cannot make");
+    write_all("a file in memory", file_.number(), contents);
 }
 
-MemoryFile::~MemoryFile() { ::close(descriptor_); }
-
 bool MemoryFile::can_hold(std::size_t bytes) const {
-    const off_t size = ::lseek(descriptor_, 0, SEEK_END);
-    return ::ftruncate(descriptor_, std::max(size, off_t(bytes))) == 0 && ::ftruncate(descriptor_, size) == 0;
+    const int file = file_.number();
+    const off_t size = ::lseek(file, 0, SEEK_END);
+    return ::ftruncate(file, std::max(size, off_t(bytes))) == 0 && ::ftruncate(file, size) == 0;
 }
 
 } // namespace sparselens

@@ -2,6 +2,8 @@
 // reason.
 #pragma once
 
+#include "io/files/file_stream.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
@@ -30,18 +32,15 @@ std::string shown_in_message(const nlohmann::json &value);
 class MemoryFile {
 public:
     explicit MemoryFile(std::string_view contents = {}); // throws Error if the system provides none
-    ~MemoryFile();                                       // removes the file, too
-    MemoryFile(const MemoryFile &) = delete;
-    MemoryFile &operator=(const MemoryFile &) = delete;
 
     // Whether it could have so many bytes. If not (errno tells why), what was written may be cut off.
     bool can_hold(std::size_t bytes) const;
 
     // A path that opens the file, in this process only.
-    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    std::string path() const { return "/proc/self/fd/" + std::to_string(file_.number()); }
 
 private:
-    int descriptor_;
+    Descriptor file_; // the system removes it when it is closed
 };
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
 #include "base/error.h"
+#include "chain/plan_views.h"
 #include "chain/stated_camera.h"
-#include "chain/usd_shot.h"
 #include "io/usd/usd_camera.h"
 #include "io/usd/usd_views.h"
 #include "lens/thin_lens.h"
