@@ -7,8 +7,6 @@
 #include <array>
 #include <cctype>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <unordered_set>
 
 namespace sparselens {

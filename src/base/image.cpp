@@ -8,10 +8,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cstring>
-#include <utility>
 
 namespace sparselens {
 

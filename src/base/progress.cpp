@@ -1,7 +1,5 @@
 #include "base/progress.h"
 
-#include <utility>
-
 namespace sparselens {
 
 void Progress::start(std::string stage, std::size_t steps) {

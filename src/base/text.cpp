@@ -1,10 +1,8 @@
 #include "base/text.h"
 
-#include <algorithm>
 #include <numeric>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

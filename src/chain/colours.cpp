@@ -2,16 +2,12 @@
 
 #include "base/error.h"
 #include "chain/make_ldi.h"
-#include "chain/notices.h"
 #include "deep/recolor.h"
 #include "deep/sanitize.h"
 #include "deep/view_samples.h"
 #include "io/camera/camera_header.h"
-#include "io/display/colour.h"
 #include "io/display/icc_profile.h"
-#include "io/display/shown_picture.h"
 #include "io/exr/exr_common.h"
-#include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "io/photograph.h"
 #include "lens/thin_lens.h"
@@ -24,7 +20,6 @@
 #include <cstddef>
 #include <iterator>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 namespace sparselens {

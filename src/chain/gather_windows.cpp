@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "chain/channels.h"
-#include "chain/colours.h"
 #include "chain/notices.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/flatten.h"

@@ -2,9 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "chain/colours.h"
 #include "chain/devices.h"
-#include "chain/notices.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"

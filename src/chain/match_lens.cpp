@@ -11,12 +11,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

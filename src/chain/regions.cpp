@@ -1,7 +1,6 @@
 #include "chain/regions.h"
 
 #include "base/error.h"
-#include "chain/notices.h"
 #include "deep/flatten.h"
 #include "deep/proxy.h"
 #include "measure/regions.h"

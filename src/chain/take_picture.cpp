@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "chain/channels.h"
 #include "chain/devices.h"
-#include "chain/notices.h"
 #include "chain/parameters.h"
 #include "deep/flatten.h"
 #include "dof/border_reach.h"

@@ -1,6 +1,5 @@
 #include "deep/build.h"
 
-#include "base/light.h"
 #include "base/parallel.h"
 
 #include <algorithm>

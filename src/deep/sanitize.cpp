@@ -12,7 +12,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace sparselens {
 

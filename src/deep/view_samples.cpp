@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "deep/build.h"
 #include "warp/tuning.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "base/channel_kind.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "finish/window_means.h"
 #include "kernels/surface.h"
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

@@ -7,7 +7,6 @@
 #include "dof/lens/beyond/frame_extension.h"
 #include "dof/merge_layers.h"
 #include "dof/selective/selective.h"
-#include "lens/thin_lens.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +14,6 @@
 #include <bit>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <utility>
 #include <vector>
 

@@ -3,12 +3,9 @@
 #include "gpu/vulkan_device.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace sparselens::gpu {
 

@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 namespace sparselens {
 

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -6,9 +6,7 @@
 #include "deep/mixed_pixels.h"
 #include "deep/tidy.h"
 #include "io/display/shown_picture.h"
-#include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
-#include "io/open_view.h"
 #include "io/photograph.h"
 #include "view/depth.h"
 #include "view/flat_pixels.h"
@@ -16,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>

@@ -5,10 +5,8 @@
 #include "deep/checks/picture_checks.h"
 #include "deep/mixed_pixels.h"
 #include "io/exr/exr_channels.h"
-#include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
-#include "view/depth.h"
 #include "view/flat_pixels.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "lens/psf.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 

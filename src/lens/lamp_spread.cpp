@@ -2,7 +2,6 @@
 
 #include "lens/polygon_pixels.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

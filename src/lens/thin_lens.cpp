@@ -2,9 +2,6 @@
 
 #include "kernels/coc_rules.h"
 
-#include <cmath>
-#include <limits>
-
 namespace sparselens {
 
 double disparity(const ThinLens &lens, double z) { return lens.radius * lens.focal_px / z; }

@@ -1,6 +1,5 @@
 #include "match/shape_search.h"
 
-#include "lens/lens_looks.h"
 #include "match/tuning.h"
 
 #include <cmath>

@@ -8,9 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

@@ -1,15 +1,12 @@
 #include "plan/noise.h"
 
-#include "base/light.h"
 #include "base/parallel.h"
 #include "plan/tuning.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace sparselens {
 

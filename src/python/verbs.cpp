@@ -14,7 +14,6 @@
 #include "measure/regions.h"
 #include "python/arrays.h"
 #include "python/job.h"
-#include "python/objects.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

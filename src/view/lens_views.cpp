@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 
-#include <Imath/ImathVec.h>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "view/resolve_lens.h"
 
 #include "base/error.h"
-#include "lens/thin_lens.h"
 #include "view/view_mapping.h"
 
 #include <algorithm>

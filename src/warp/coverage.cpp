@@ -4,9 +4,7 @@
 #include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
-#include "kernels/warp_rules.h"
 
-#include <cmath>
 #include <optional>
 
 namespace sparselens {

@@ -12,10 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 namespace sparselens {
 

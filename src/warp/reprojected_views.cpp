@@ -16,8 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
-#include <vector>
 
 namespace sparselens {
 

@@ -5,7 +5,6 @@
 #include "deep/mixed_pixels.h"
 #include "lens/thin_lens.h"
 #include "warp/matting/matte_shares.h"
-#include "warp/matting/thin_structures.h"
 #include "warp/tuning.h"
 
 #include <algorithm>

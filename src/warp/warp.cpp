@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "deep/build.h"
-#include "lens/thin_lens.h"
 #include "view/resolve_lens.h"
 #include "warp/coverage.h"
 #include "warp/extend_surfaces.h"
@@ -19,7 +18,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace sparselens {

@@ -26,7 +26,6 @@
 #include <new>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 namespace sparselens {
 

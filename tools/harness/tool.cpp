@@ -1,7 +1,6 @@
 #include "harness/tool.h"
 
 #include "base/error.h"
-#include "chain/notices.h"
 #include "harness/commands/file_arguments.h"
 #include "harness/history.h"
 #include "harness/process.h"
@@ -9,9 +8,7 @@
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>

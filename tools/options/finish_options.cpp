@@ -2,7 +2,6 @@
 
 #include "finish/tuning.h"
 #include "harness/tool.h"
-#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "harness/progress_lines.h"
 #include "harness/tool.h"
-#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

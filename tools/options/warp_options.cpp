@@ -1,7 +1,6 @@
 #include "options/warp_options.h"
 
 #include "harness/tool.h"
-#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 

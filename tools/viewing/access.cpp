@@ -1,7 +1,5 @@
 #include "viewing/access.h"
 
-#include "base/error.h"
-
 #include <sys/random.h>
 
 #include <algorithm>

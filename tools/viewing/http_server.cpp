@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <exception>
 #include <new>
-#include <string>
 #include <utility>
 
 namespace sparselens {

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,8 +10,6 @@
 #include <cstring>
 #include <map>
 #include <regex>
-#include <string_view>
-#include <utility>
 
 namespace sparselens {
 

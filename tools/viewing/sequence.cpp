@@ -13,7 +13,6 @@
 #include "options/match_options.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -21,7 +20,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace sparselens {

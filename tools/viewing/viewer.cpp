@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
-#include <utility>
 
 namespace sparselens {
 

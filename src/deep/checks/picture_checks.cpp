@@ -1,12 +1,10 @@
 #include "deep/checks/picture_checks.h"
 
 #include "base/numbers.h"
-#include "view/flat_pixels.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace sparselens {
 

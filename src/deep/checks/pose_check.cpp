@@ -1,6 +1,5 @@
 #include "deep/checks/pose_check.h"
 
-#include "deep/view_samples.h"
 #include "view/flat_pixels.h"
 #include "view/view_mapping.h"
 

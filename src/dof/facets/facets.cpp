@@ -4,7 +4,6 @@
 #include "base/subpixels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 

@@ -4,7 +4,6 @@
 #include "kernels/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>

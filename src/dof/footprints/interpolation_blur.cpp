@@ -3,7 +3,6 @@
 #include "dof/tuning.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace sparselens {

@@ -3,7 +3,6 @@
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
-#include <span>
 #include <type_traits>
 
 namespace sparselens {

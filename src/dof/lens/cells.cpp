@@ -1,7 +1,6 @@
 #include "dof/lens/cells.h"
 
 #include "base/numbers.h"
-#include "dof/lens/lens_gather.h"
 #include "dof/tuning.h"
 
 #include <cstddef>

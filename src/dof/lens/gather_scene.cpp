@@ -5,15 +5,12 @@
 #include "deep/proxy.h"
 #include "dof/facets/facets.h"
 #include "dof/lens/cells.h"
-#include "dof/lens/sample_blocks.h"
 #include "dof/lens/sharpen.h"
 #include "dof/tuning.h"
 #include "lens/thin_lens.h"
 
-#include <algorithm>
 #include <functional>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace sparselens {

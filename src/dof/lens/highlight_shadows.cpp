@@ -2,7 +2,6 @@
 
 #include "base/numbers.h"
 #include "dof/lens/lens_gather.h"
-#include "dof/lens/shadow_search.h"
 #include "dof/tuning.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 #include "dof/lens/highlights.h"
 
-#include "base/grid.h"
 #include "base/parallel.h"
-#include "dof/tuning.h"
 #include "lens/lamp_spread.h"
 
 #include <algorithm>

@@ -15,9 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <functional>
-#include <map>
-#include <span>
 
 namespace sparselens {
 

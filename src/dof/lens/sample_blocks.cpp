@@ -1,13 +1,9 @@
 #include "dof/lens/sample_blocks.h"
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "deep/build.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 namespace sparselens {
 

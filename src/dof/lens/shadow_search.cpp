@@ -3,9 +3,6 @@
 #include "dof/lens/cells.h"
 #include "dof/tuning.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace sparselens {
 
 void ShadowSearch::begin(const Imath::V2d &extent, const CoarseCasters *coarse) {

@@ -5,7 +5,6 @@
 #include "shutter/shutter_mean.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace sparselens {

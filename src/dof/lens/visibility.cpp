@@ -2,11 +2,8 @@
 
 #include "base/parallel.h"
 #include "dof/facets/placed_facets.h"
-#include "kernels/lens_rules.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 

@@ -2,9 +2,7 @@
 
 #include "base/parallel.h"
 #include "dof/tuning.h"
-#include "kernels/layer_rules.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -4,11 +4,9 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 namespace sparselens::gpu {
 

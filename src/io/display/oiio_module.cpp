@@ -5,7 +5,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>

@@ -16,7 +16,6 @@
 #include <functional>
 #include <iterator>
 #include <system_error>
-#include <vector>
 
 namespace sparselens {
 

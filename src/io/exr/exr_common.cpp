@@ -3,7 +3,6 @@
 #include "base/channel_kind.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "io/exr/exr_header.h"
 
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>

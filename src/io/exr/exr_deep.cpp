@@ -10,7 +10,6 @@
 #include "io/exr/exr_deep_part.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
-#include "io/exr/exr_parts.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>

@@ -3,8 +3,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "deep/ldi.h"
-#include "deep/packed_rows.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/part_readers.h"
 #include "io/files/memory_limit.h"
@@ -15,11 +13,8 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdint>
 #include <numeric>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

@@ -7,12 +7,10 @@
 #include "io/exr/exr_channels.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header.h"
-#include "io/exr/exr_parts.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
-#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfStdIO.h>
@@ -21,7 +19,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <unordered_set>
 
 namespace sparselens {

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/files/file_stream.h"
 
 #include <ImfBoxAttribute.h>
 #include <ImfCompression.h>

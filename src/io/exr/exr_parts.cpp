@@ -8,7 +8,6 @@
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
 
-#include <ImfMultiPartInputFile.h>
 #include <ImfStandardAttributes.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

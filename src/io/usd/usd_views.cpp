@@ -4,7 +4,6 @@
 #include "io/files/file_stream.h"
 #include "io/files/text_file.h"
 #include "io/usd/usd_script.h"
-#include "lens/thin_lens.h"
 #include "plan/plan.h"
 
 #include <fmt/format.h>

@@ -5,9 +5,6 @@
 #include "base/numbers.h"
 #include "kernels/warp_rules.h"
 #include "lens/thin_lens.h"
-#include "warp/images/image_sweep.h"
-#include "warp/images/matched_view.h"
-#include "warp/images/patch_comparison.h"
 #include "warp/tuning.h"
 
 #include <algorithm>

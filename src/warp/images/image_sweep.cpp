@@ -2,15 +2,11 @@
 
 #include "base/numbers.h"
 #include "base/subpixels.h"
-#include "warp/images/matched_view.h"
 #include "warp/images/patch_comparison.h"
 #include "warp/tuning.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 namespace sparselens {

@@ -3,9 +3,7 @@
 #include "base/numbers.h"
 #include "warp/tuning.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sparselens {
 

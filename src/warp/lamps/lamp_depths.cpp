@@ -1,7 +1,6 @@
 #include "warp/lamps/lamp_depths.h"
 
 #include "base/parallel.h"
-#include "view/view_mapping.h"
 #include "warp/lamps/lamp_light.h"
 #include "warp/tuning.h"
 
@@ -12,9 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
 namespace sparselens {
 

@@ -1,13 +1,11 @@
 #include "warp/lamps/lamp_light.h"
 
 #include "base/numbers.h"
-#include "base/parallel.h"
 #include "deep/channel_alpha.h"
 #include "lens/lamp_spread.h"
 #include "lens/thin_lens.h"
 #include "warp/tuning.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>

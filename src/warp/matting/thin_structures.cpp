@@ -1,15 +1,10 @@
 #include "warp/matting/thin_structures.h"
 
-#include "base/grid.h"
-#include "base/light.h"
 #include "deep/mixed_pixels.h"
 #include "lens/lamp_spread.h"
-#include "lens/thin_lens.h"
 #include "warp/tuning.h"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace sparselens {

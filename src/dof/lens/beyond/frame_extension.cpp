@@ -14,8 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace sparselens {
 
