@@ -186,10 +186,6 @@ Ldi Warper::run(Progress &progress) {
     return ldi;
 }
 
-} // namespace
-
-namespace {
-
 template <typename Views>
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const Views &views, const Windows &windows) {
     options.focus = camera.focus_distance;
