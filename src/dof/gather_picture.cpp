@@ -56,13 +56,25 @@ PictureOptions framed(PictureOptions options, const Ldi &ldi, const ThinLens &le
     return options;
 }
 
-// Sets the tolerance to 0, because layers merged twice would change by more than the tolerance.
-Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                    const Imath::Box2i &written, PictureOptions options, Progress &progress) {
+// Layers merged here are not merged again, which would change them by more than the tolerance.
+template <typename AnyLdi>
+Image gather_any(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                 const Imath::Box2i &written, PictureOptions options, Progress &progress) {
+    if (options.holdout && options.holdout_defocused) {
+        const Ldi &holdout = *std::exchange(options.holdout, nullptr);
+        return without_holdout(
+            gather_picture(with_holdout(ldi, holdout), lens, gathered, written, options, progress));
+    }
+    if (!merges_layers(lens, options) || !can_merge_layers(ldi)) {
+        options = framed(std::move(options), ldi, lens, gathered);
+        return gather_layers(std::forward<AnyLdi>(ldi), lens, gathered, written, options, progress);
+    }
+    Ldi merged = merge_layers(std::forward<AnyLdi>(ldi), disparity_scale(lens.radius, lens.focal_px),
+                              options.layer_tolerance);
     progress.may_end();
     options.layer_tolerance = 0;
-    options = framed(std::move(options), ldi, lens, gathered);
-    return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
+    options = framed(std::move(options), merged, lens, gathered);
+    return gather_layers(std::move(merged), lens, gathered, written, options, progress);
 }
 
 // An LDI with one flattened sample in each pixel that has samples.
@@ -116,30 +128,12 @@ Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options)
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
-    if (options.holdout && options.holdout_defocused) {
-        PictureOptions without = options;
-        without.holdout = nullptr;
-        return without_holdout(
-            gather_picture(with_holdout(ldi, *options.holdout), lens, gathered, written, without, progress));
-    }
-    if (!merges_layers(lens, options) || !can_merge_layers(ldi))
-        return gather_layers(ldi, lens, gathered, written, framed(options, ldi, lens, gathered), progress);
-    return gather_merged(
-        merge_layers(ldi, disparity_scale(lens.radius, lens.focal_px), options.layer_tolerance), lens,
-        gathered, written, options, progress);
+    return gather_any(ldi, lens, gathered, written, options, progress);
 }
 
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
-    if (options.holdout && options.holdout_defocused)
-        return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
-    if (!merges_layers(lens, options) || !can_merge_layers(ldi)) {
-        const PictureOptions by = framed(options, ldi, lens, gathered);
-        return gather_layers(std::move(ldi), lens, gathered, written, by, progress);
-    }
-    const double scale = disparity_scale(lens.radius, lens.focal_px);
-    return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
-                         written, options, progress);
+    return gather_any(std::move(ldi), lens, gathered, written, options, progress);
 }
 
 namespace {

@@ -54,7 +54,7 @@ private:
 
     void read_key(LensFile &file, const std::string &key, const Json &value) {
         if (const LookNumber *number = number_called(key)) {
-            file.values.*(number->value) = number_at(key, value, number->range.words, number->range.holds);
+            file.values.*(number->value) = number_at(key, value, number->range);
         } else if (key == "name") {
             if (!value.is_string()) refuse(key, value, "a text");
             file.name = value.get<std::string>();
@@ -73,36 +73,33 @@ private:
             file.values.chromatic_type = type->second;
         } else if (key == "tilt") {
             if (!value.is_array() || value.size() != 2) refuse(key, value, "[X, Y] in degrees");
-            file.values.tilt_x = number_at(key, value[0], "degrees", is_tilt);
-            file.values.tilt_y = number_at(key, value[1], "degrees", is_tilt);
+            file.values.tilt_x = number_at(key, value[0], {"degrees", is_tilt});
+            file.values.tilt_y = number_at(key, value[1], {"degrees", is_tilt});
         } else {
             throw Error(
                 fmt::format("{}: '{}' is no look of a lens: give options' names without dashes", path_, key));
         }
     }
 
-    double number_at(const std::string &key, const Json &value, const char *range,
-                     bool (*valid)(double)) const {
-        if (value.is_object()) return by_fstop(key, value, range, valid);
-        return plain_number(key, value, range, valid);
+    double number_at(const std::string &key, const Json &value, const NumberRange &range) const {
+        if (value.is_object()) return by_fstop(key, value, range);
+        return plain_number(key, value, range);
     }
 
-    double plain_number(const std::string &key, const Json &value, const char *range,
-                        bool (*valid)(double)) const {
-        if (!value.is_number() || !valid(value.get<double>())) refuse(key, value, range);
+    double plain_number(const std::string &key, const Json &value, const NumberRange &range) const {
+        if (!value.is_number() || !range.holds(value.get<double>())) refuse(key, value, range.words);
         return value.get<double>();
     }
 
-    double by_fstop(const std::string &key, const Json &value, const char *range,
-                    bool (*valid)(double)) const {
+    double by_fstop(const std::string &key, const Json &value, const NumberRange &range) const {
         std::map<double, double> by_stops; // log2 of the f-number
         for (const auto &[text, v] : value.items()) {
             const auto fstop = number_of<double>(text);
             if (!fstop || !(*fstop > 0) || !std::isfinite(*fstop))
                 refuse(key + "' for '" + text, v, "for an f-number, e.g. \"1.4\"");
-            by_stops[std::log2(*fstop)] = plain_number(key, v, range, valid);
+            by_stops[std::log2(*fstop)] = plain_number(key, v, range);
         }
-        if (by_stops.empty()) refuse(key, value, range);
+        if (by_stops.empty()) refuse(key, value, range.words);
         if (!fstop_)
             throw UsageError(
                 fmt::format("{}: '{}' depends on the f-number, which is unknown: give `fstop`", path_, key));
@@ -113,7 +110,7 @@ private:
         const auto before = std::prev(after);
         const double mixed =
             std::lerp(before->second, after->second, (at - before->first) / (after->first - before->first));
-        return valid(mixed) ? mixed : before->second; // there are no blades between 0 and 6
+        return range.holds(mixed) ? mixed : before->second; // there are no blades between 0 and 6
     }
 
     const std::string &path_;
