@@ -181,8 +181,8 @@ void ask(const FinishCommand &options, const FinishedPicture &finished, const Im
     if (options.rays > 0 && options.rays <= there)
         throw UsageError(fmt::format("--rays {:g}: the renders have {:g} already", options.rays, there));
     const Windows &windows = finished.image.windows;
-    const AskedRays asked = ask_rays(finished.error, finished.samples, windows.grid(), options.rays,
-                                     std::pow(10, -options.goal.value_or(0) / 10));
+    const AskedRays asked = ask_rays(finished.error, finished.samples, windows.grid(), finished.part,
+                                     options.rays, std::pow(10, -options.goal.value_or(0) / 10));
     Image mask(windows, {{"samples", PixelType::float32}});
     std::ranges::copy(asked.more, mask.plane(0).begin());
     write_flat_exr(options.ask, mask, header, options.compression);

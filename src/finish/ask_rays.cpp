@@ -84,26 +84,29 @@ std::vector<PositionBox> pieces_of(const ArrayGrid &lattice, const Plan &plan,
 
 } // namespace
 
-AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
-                   double goal) {
+AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid,
+                   const Imath::Box2i &pixels, double rays, double goal) {
     const double fall = decibels(error) ? fall_of(error, samples.mean) : 1;
-    double of_map = 0; // the mean of the map, which has no error below 0, and so exceeds the picture's mean
-    for (const float e : error.map) of_map += double(e) / double(grid.size());
-    if (error.mean > 0) goal *= of_map / error.mean;
-    const Tiles blocks(grid.box(), FinishTuning::ask_block_px);
+    const Grid inside(pixels);
+    const Tiles blocks(pixels, FinishTuning::ask_block_px);
     std::vector<Part> parts(blocks.count());
-    for (std::size_t i = 0; i < grid.size(); ++i) {
+    double of_map = 0; // the mean of the map, which has no error below 0, and so exceeds the picture's mean
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+        const Imath::V2i pixel = inside.pixel(k);
+        const std::size_t i = grid.index(pixel);
         const auto [n, m] = samples.at(i);
-        parts[blocks.tile_of(grid.pixel(i))] +=
+        of_map += double(error.map[i]) / double(inside.size());
+        parts[blocks.tile_of(pixel)] +=
             {1, double(error.map[i]) * std::pow(double(n + m), fall), double(n + m)};
     }
+    if (error.mean > 0) goal *= of_map / error.mean;
     const Plan plan = plan_of(parts, fall, rays, goal);
-    AskedRays asked{Values(grid.size()), {}};
+    AskedRays asked{Values(grid.size(), 0.0f), {}};
     const auto more = [](const Plan &by, const Part &part) {
         return by.needed(part) - part.samples / part.pixels;
     };
-    for (std::size_t i = 0; i < grid.size(); ++i)
-        asked.more[i] = float(more(plan, parts[blocks.tile_of(grid.pixel(i))]));
+    for (std::size_t k = 0; k < inside.size(); ++k)
+        asked.more[grid.index(inside.pixel(k))] = float(more(plan, parts[blocks.tile_of(inside.pixel(k))]));
 
     const ArrayGrid lattice(blocks.columns(), blocks.rows());
     const auto part_of = [&](const PositionBox &box) {

@@ -19,8 +19,9 @@ struct AskedRays {
     std::vector<std::pair<Imath::Box2i, int>> rectangles;
 };
 
-// `rays`: for each pixel on average, with those that it has; 0: as many as a mean squared error of `goal` takes.
-AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid, double rays,
-                   double goal = 0);
+// `rays`: for each pixel of `pixels` on average, with those that it has; 0: as many as a mean squared error of `goal` takes.
+// `pixels`: the pixels of the grid that may need rays.
+AskedRays ask_rays(const ErrorEstimate &error, const RayCounts &samples, const Grid &grid,
+                   const Imath::Box2i &pixels, double rays, double goal = 0);
 
 } // namespace sparselens

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sparselens {
 
@@ -158,6 +159,64 @@ LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> 
     take_around(layer, picture, channels);
     return layer;
 }
+
+// The part of a layer outside of which no picture shows anything. It alone is finished, so that empty rows and columns
+// around it change nothing.
+class FilledPart {
+public:
+    explicit FilledPart(const LayerToFinish &layer) : grid_(layer.grid), part_(layer.grid.box()) {
+        Imath::Box2i box;
+        const auto add = [&](const Colours &picture) {
+            for (const Values &plane : picture)
+                for (std::size_t i = 0; i < plane.size(); ++i)
+                    if (plane[i] != 0) box.extendBy(grid_.position(i) - Position());
+        };
+        add(layer.gathered);
+        for (const Colours &half : layer.rays) add(half);
+        for (const Halves &given : layer.given)
+            for (const Colours &half : given) add(half);
+        if (!box.isEmpty()) part_ = {Position() + box.min, Position() + box.max};
+    }
+    void cut(LayerToFinish &layer) const {
+        if (part_ == grid_.box()) return;
+        layer.grid = ArrayGrid(width(), part_.max.row - part_.min.row + 1);
+        cut(layer.gathered);
+        for (std::size_t k = 0; k < 2; ++k) {
+            cut(layer.rays[k]), cut(layer.averaged[k]);
+            for (Halves &given : layer.given) cut(given[k]);
+            cut(layer.samples.by_pixel[k]);
+        }
+        cut(layer.nothing);
+    }
+    Imath::Box2i box(const Grid &grid) const { return {grid.pixel(part_.min), grid.pixel(part_.max)}; }
+    // Puts the part back, with this value around it.
+    void spread(Values &plane, float around) const {
+        if (part_ == grid_.box()) return;
+        const Values part = std::exchange(plane, Values(grid_.size(), around));
+        for (int row = 0; row <= part_.max.row - part_.min.row; ++row)
+            std::copy_n(part.begin() + std::ptrdiff_t(row) * width(), width(), plane.begin() + begin_of(row));
+    }
+
+private:
+    int width() const { return part_.max.column - part_.min.column + 1; }
+    std::ptrdiff_t begin_of(int row) const {
+        return std::ptrdiff_t(grid_.index(part_.min + Imath::V2i(0, row)));
+    }
+    void cut(Colours &picture) const {
+        for (Values &plane : picture) cut(plane);
+    }
+    template <typename Plane>
+    void cut(Plane &plane) const {
+        if (plane.empty()) return;
+        Plane part;
+        for (int row = 0; row <= part_.max.row - part_.min.row; ++row)
+            part.insert(part.end(), plane.begin() + begin_of(row), plane.begin() + begin_of(row) + width());
+        plane = std::move(part);
+    }
+
+    ArrayGrid grid_;
+    PositionBox part_;
+};
 
 } // namespace
 
@@ -324,6 +383,9 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         }
         LayerToFinish layer = layer_of(picture, channels);
         layer.nothing = empty;
+        const FilledPart part(layer);
+        RayCounts samples = layer.samples;
+        part.cut(layer);
         const bool beauty = std::ranges::find(channels, colours[0]) != channels.end();
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
@@ -331,16 +393,21 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
             finished.warnings.insert(finished.warnings.end(), picture.rays.doubts().begin(),
                                      picture.rays.doubts().end());
             finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
+            part.spread(finished.error.map, 0);
+            finished.part = part.box(picture.gathered.windows.grid());
             finished.kept = std::move(result.kept);
-            finished.samples = std::move(layer.samples);
+            part.spread(finished.kept, 1);
+            finished.samples = std::move(samples);
         }
         if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)
             for (float &alpha : result.picture[0]) alpha = std::clamp(alpha, 0.0f, 1.0f);
-        for (std::size_t k = 0; k < channels.size(); ++k)
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            part.spread(result.picture[k], 0);
             std::ranges::transform(result.picture[k], picture.gathered.plane(channels[k]),
                                    picture.gathered.plane(channels[k]).begin(), [](float made, float was) {
                                        return std::isfinite(was) && !is_usable(was) ? was : made;
                                    });
+        }
     }
     finished.image = std::move(picture.gathered);
     return finished;

@@ -118,6 +118,8 @@ struct FinishedPicture {
     Values kept;         // for R, G and B: 1 as gathered, 0 as the rays
     ErrorEstimate error; // for R, G and B
     RayCounts samples;
+    Imath::Box2i part =
+        {}; // the pixels that show anything: outside, nothing is finished, and no error is counted
     std::vector<std::string> warnings;    // mistakes in R, G and B, and doubts about the renders
     std::vector<std::string> as_gathered; // names of light channels that the renders lack
 };

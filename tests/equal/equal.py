@@ -338,14 +338,16 @@ def shifted(dx, dy):
 
 
 def cut(inputs):
-    """Each file without the rows and columns at its border that hold nothing; a denoised picture like its noisy one."""
+    """Each file without the rows and columns at its border that hold nothing."""
     def box(picture):
         values = [v for name, v in picture.channels.items() if name in "RGBA"] or [picture.channels["Z"] < SKY]
         y, x = numpy.nonzero(picture.counts if picture.counts is not None else sum(v != 0 for v in values))
         left, top = picture.data[:2]
         return left + x.min(), top + y.min(), left + x.max(), top + y.max()
     boxes = {role: [box(p) for p in files if isinstance(p, Picture)] for role, files in inputs.files.items()}
-    boxes["denoised"] = boxes.get("rays") or boxes["in"] + boxes.get("rim", [])
+    if "denoised" in boxes:  # what is finished together is cut alike
+        every = [tuple(f(side) for f, side in zip((min, min, max, max), zip(*sum(boxes.values(), []))))]
+        boxes = {role: every * len(files) for role, files in boxes.items()}
     return inputs.but(files={role: [p.windowed(b) for p, b in zip(files, boxes[role])] if boxes[role] else files for role, files in inputs.files.items()})
 
 
@@ -575,7 +577,6 @@ LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "g
 LAMPS = "lamps, whose discs are exact, are told in cells of 32 pixels from the corner of what is gathered; all else is a pattern of points"
 SLOW = {"match"}  # doors
 KNOWN = {  # faults that are not mended yet: (door, change): why
-    **{(door, change): "dof-finish looks at the data window" for door in ("finish", "finish-denoised", "finish-ask") for change in ("cut", "overscan")},
 }
 BOUNDS = {  # in place of that of the change, with the reason
     "half": {kind: (5e-4, "where they get halves, they write halves: one rounding") for kind in ("views", "two deep", "pipe")},

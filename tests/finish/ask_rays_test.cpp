@@ -43,25 +43,25 @@ void expect_asked(const AskedRays &asked, float left, float right) {
 // Four times the error of one ray takes twice the rays.
 TEST(AskRays, RaysGoAsTheRootOfTheError) {
     const ErrorEstimate error = error_of(split(16e-5f, 4e-5f));
-    expect_asked(ask_rays(error, std::array<double, 2>{5, 5}, grid, 60), 70, 30);
+    expect_asked(ask_rays(error, std::array<double, 2>{5, 5}, grid, grid.box(), 60), 70, 30);
     // Rays that are there are not taken away: with 80 on the left, 20 remain on the right.
     const ErrorEstimate steep = error_of(split(64e-5f, 1e-5f));
-    expect_asked(ask_rays(steep, std::array<double, 2>{10, 10}, grid, 50), 60, 0);
+    expect_asked(ask_rays(steep, std::array<double, 2>{10, 10}, grid, grid.box(), 50), 60, 0);
 }
 
 // The left has had twice the rays, and has half of the error: it needs as many in all.
 TEST(AskRays, KnowsTheSamplesOfEachPixel) {
     const RayCounts samples({15, 15}, {split(20, 10), split(20, 10)});
-    expect_asked(ask_rays(error_of(split(32e-5f, 1e-5f)), samples, grid, 50), 40, 0);
+    expect_asked(ask_rays(error_of(split(32e-5f, 1e-5f)), samples, grid, grid.box(), 50), 40, 0);
 }
 
 // With 80 and 20 rays, errors of 64e-5 and 4e-5 from 20 rays become 16e-5 and 4e-5.
 TEST(AskRays, ReachesAnError) {
     ErrorEstimate error = error_of(split(64e-5f, 4e-5f));
-    expect_asked(ask_rays(error, std::array<double, 2>{10, 10}, grid, 0, 10e-5), 60, 0);
+    expect_asked(ask_rays(error, std::array<double, 2>{10, 10}, grid, grid.box(), 0, 10e-5), 60, 0);
     // A map has no error below 0, so it may show more than there is on average.
     error.mean /= 2, error.of_one /= 2;
-    expect_asked(ask_rays(error, std::array<double, 2>{10, 10}, grid, 0, 5e-5), 60, 0);
+    expect_asked(ask_rays(error, std::array<double, 2>{10, 10}, grid, grid.box(), 0, 5e-5), 60, 0);
 }
 
 // If the error falls more slowly, more of the rays go where it is large: as its power of 2/3 if twice the rays leave
@@ -69,19 +69,30 @@ TEST(AskRays, ReachesAnError) {
 TEST(AskRays, SlowFallsTakeMore) {
     ErrorEstimate error = error_of(split(8e-5f, 1e-5f));
     error.of_one = error.mean * std::sqrt(2.0);
-    expect_asked(ask_rays(error, std::array<double, 2>{5, 5}, grid, 50), 70, 10);
+    expect_asked(ask_rays(error, std::array<double, 2>{5, 5}, grid, grid.box(), 50), 70, 10);
 }
 
 // Whatever is wished, no pixel is asked for more than a renderer takes.
 TEST(AskRays, CountsAreLimited) {
     const ErrorEstimate error = error_of(split(64e-5f, 4e-5f));
     const std::array<double, 2> samples{10, 10};
-    for (const AskedRays &asked :
-         {ask_rays(error, samples, grid, 1e12), ask_rays(error, samples, grid, 0, 1e-200)}) {
+    for (const AskedRays &asked : {ask_rays(error, samples, grid, grid.box(), 1e12),
+                                   ask_rays(error, samples, grid, grid.box(), 0, 1e-200)}) {
         for (const float more : asked.more) ASSERT_EQ(more, 1e6f - 20);
         ASSERT_EQ(asked.rectangles.size(), 1u);
         EXPECT_EQ(asked.rectangles[0], std::pair(grid.box(), 1000000 - 20));
     }
+}
+
+// What lies outside of the pixels that may need rays gets none, and does not count in the mean.
+TEST(AskRays, AsksInItsPixelsAlone) {
+    const Imath::Box2i left({0, 0}, {15, 15});
+    const AskedRays asked =
+        ask_rays(error_of(split(64e-5f, 64e-5f)), std::array<double, 2>{10, 10}, grid, left, 50);
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        ASSERT_NEAR(asked.more[i], left.intersects(grid.pixel(i)) ? 30 : 0, 1e-3) << i;
+    ASSERT_EQ(asked.rectangles.size(), 1u);
+    EXPECT_EQ(asked.rectangles[0], std::pair(left, 30));
 }
 
 TEST(AskRays, FewRectanglesApartCostAsMuch) {
@@ -90,7 +101,8 @@ TEST(AskRays, FewRectanglesApartCostAsMuch) {
     for (const Imath::V2i &spot : {Imath::V2i(8, 16), {72, 96}, {100, 40}, {184, 8}, {160, 100}})
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 16; ++x) map[large.index(spot + Imath::V2i(x, y))] = 1e-3f;
-    const AskedRays asked = ask_rays({map, 1e-4, 1e-6, 2e-4}, std::array<double, 2>{20, 20}, large, 80);
+    const AskedRays asked =
+        ask_rays({map, 1e-4, 1e-6, 2e-4}, std::array<double, 2>{20, 20}, large, large.box(), 80);
     double rays = 0, by_rectangles = 0;
     for (const float more : asked.more) rays += double(more);
     EXPECT_NEAR(rays / double(large.size()), 40, 0.01);

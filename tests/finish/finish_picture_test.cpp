@@ -390,6 +390,41 @@ TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
     }
 }
 
+// Filters with negative lobes give renders an alpha above 1.
+TEST(FinishPicture, AlphaIsAtMostOne) {
+    Image gathered = picture_of(truth);
+    std::vector<Render> renders{render(1), render(2)};
+    std::ranges::fill(gathered.plane(3), 0.8f);
+    for (Render &r : renders) std::ranges::fill(r.image.plane(3), 1.05f);
+    const FinishedPicture result = finished(gathered, renders);
+    for (const float alpha : result.image.plane(3)) ASSERT_EQ(alpha, 1);
+}
+
+TEST(FinishPicture, EmptyRowsAndColumnsAroundChangeNothing) {
+    const Imath::Box2i box({5, 9}, {50, 40});
+    const auto of = [&](const Imath::Box2i &window) {
+        const auto element = [&](const Image &image) {
+            Image cut = crop(image, box), all(windows, image.channels);
+            for (std::size_t c = 0; c < 4; ++c)
+                for (int y = box.min.y; y <= box.max.y; ++y)
+                    for (int x = box.min.x; x <= box.max.x; ++x) all.at(c, x, y) = cut.at(c, x, y);
+            return crop(all, window);
+        };
+        std::vector<Render> renders{render(1), render(2)};
+        for (Render &r : renders) r.image = element(r.image);
+        return finished(element(picture_of(blurred(truth, grid, 1))), renders);
+    };
+    const FinishedPicture expected = of(box), found = of(windows.data);
+    EXPECT_TRUE(crop(found.image, box).values == expected.image.values);
+    EXPECT_EQ(found.error.mean, expected.error.mean);
+    EXPECT_EQ(found.part, box);
+    EXPECT_EQ(expected.part, box);
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        if (!box.intersects(windows.pixel(i))) {
+            ASSERT_EQ(found.error.map[i], 0) << i;
+        }
+}
+
 Colours colours_of(const Image &image) {
     Colours colours;
     for (std::size_t c = 0; c < 3; ++c) colours.emplace_back(image.plane(c).begin(), image.plane(c).end());
