@@ -35,7 +35,8 @@ std::array<Answers, 3> answers_of(const CellEvidence &evidence, const ArrayGrid 
         const std::array<double, 2> samples{evidence.samples[0][i], evidence.samples[1][i]};
         const double all = samples[0] + samples[1], of_both = samples[0] * samples[1] / all;
         for (std::size_t k = 0; k < 2; ++k) {
-            const double by = samples[1 - k];
+            // All pixels count alike: one with many samples would speak for those around it that have few.
+            const double by = samples[1 - k] / all;
             // Noise of the changed picture, as shown by the difference between the renders' pictures, costs more.
             const double part = of_both / samples[k];
             const auto add = [&](Answers &to, double its_part) {
@@ -45,7 +46,7 @@ std::array<Answers, 3> answers_of(const CellEvidence &evidence, const ArrayGrid 
                 to.energy[i] += float(by * (double(evidence.energy[k][i]) +
                                             (its_part - part + costs) * double(evidence.spread[i])));
                 to.variance[i] += float(by * by * double(evidence.squares[k][i]) +
-                                        by * double(evidence.removed[k][i]) * evidence.event_height);
+                                        by / all * double(evidence.removed[k][i]) * evidence.event_height);
             };
             add(found[k], part);
             // The noise of the picture of both is that of two renders with half of all samples each.
