@@ -4,7 +4,8 @@
 // proportion to its error with one ray, to the power 1 / (1 + fall). No block gets fewer rays than it has.
 #pragma once
 
-#include "finish/finish_picture.h"
+#include "base/grid.h"
+#include "finish/error_estimate.h"
 
 #include <Imath/ImathBox.h>
 

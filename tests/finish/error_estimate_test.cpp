@@ -1,5 +1,5 @@
 // The estimated error compared with the true one, where the truth is known.
-#include "finish/finish_picture.h"
+#include "finish/error_estimate.h"
 #include "finish/synthetic.h"
 
 #include <gtest/gtest.h>

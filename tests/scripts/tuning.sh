@@ -52,7 +52,7 @@ warp/images/image_depths.cpp band_rows
 warp/lamps/lamp_light.cpp farthest_move
 warp/reprojected_views.cpp far_off
 warp/surfaces.cpp few
-warp/warp_device.h warp_band_rows
+warp/warp.cpp rows_at_once
 match/blocks.cpp first_tint nuisances
 match/blocks.h most_changes
 match/measure_lens.cpp coc_change ends_change first_motion
