@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "finish/window_means.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -26,17 +27,17 @@ struct Answers {
     Values variance;  // of `confirmed` in one pixel, if the change were wrong
 };
 
-// The first change, the second, and that of both.
-std::array<Answers, 3> answers_of(const CellEvidence &evidence, const ArrayGrid &grid) {
+// The first change, the second, and that of both. Pixels count by their samples, or all alike.
+std::array<Answers, 3> answers_of(const CellEvidence &evidence, const ArrayGrid &grid, bool alike) {
     std::array<Answers, 3> found;
     for (Answers &of : found)
         for (Values *values : {&of.confirmed, &of.energy, &of.variance}) values->assign(grid.size(), 0.0f);
     for_cells(grid, [&](std::size_t i) {
         const std::array<double, 2> samples{evidence.samples[0][i], evidence.samples[1][i]};
         const double all = samples[0] + samples[1], of_both = samples[0] * samples[1] / all;
+        const double weight = alike ? 1 / all : 1;
         for (std::size_t k = 0; k < 2; ++k) {
-            // All pixels count alike: one with many samples would speak for those around it that have few.
-            const double by = samples[1 - k] / all;
+            const double by = samples[1 - k] * weight;
             // Noise of the changed picture, as shown by the difference between the renders' pictures, costs more.
             const double part = of_both / samples[k];
             const auto add = [&](Answers &to, double its_part) {
@@ -46,7 +47,7 @@ std::array<Answers, 3> answers_of(const CellEvidence &evidence, const ArrayGrid 
                 to.energy[i] += float(by * (double(evidence.energy[k][i]) +
                                             (its_part - part + costs) * double(evidence.spread[i])));
                 to.variance[i] += float(by * by * double(evidence.squares[k][i]) +
-                                        by / all * double(evidence.removed[k][i]) * evidence.event_height);
+                                        by * weight * double(evidence.removed[k][i]) * evidence.event_height);
             };
             add(found[k], part);
             // The noise of the picture of both is that of two renders with half of all samples each.
@@ -73,28 +74,51 @@ float proven(const Answers &square, std::size_t i, double pixels, double deviati
     return std::clamp(share + float(std::max(proof, 0.0) * left / double(square.energy[i])), 0.0f, 1.0f);
 }
 
-// The share of each picture's change that is accepted, for each cell.
+Values mean_of_all(const Values &values) {
+    return Values(1, float(std::accumulate(values.begin(), values.end(), 0.0) / double(values.size())));
+}
+
+// The share of each picture's change that is accepted, for each cell. Evidence counts by its samples for a cell that has
+// as many as those around it: their noise hides nothing. For a cell with fewer, all count alike: those with many do not
+// speak for it.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells) {
     const ArrayGrid &grid = cells.grid();
     const auto pixels = double(cells.side() * cells.side());
-    const auto mean = [&](const Values &values) {
-        return Values(1, float(std::accumulate(values.begin(), values.end(), 0.0) / double(grid.size())));
-    };
-    std::array<Answers, 3> answers = answers_of(evidence, grid);
+    Values samples = evidence.samples[0];
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] += evidence.samples[1][i];
+    const bool differ = std::ranges::any_of(samples, [&](float v) { return v != samples[0]; });
+    const std::array<std::array<Answers, 3>, 2> answers{answers_of(evidence, grid, false),
+                                                        differ ? answers_of(evidence, grid, true)
+                                                               : std::array<Answers, 3>{}};
     std::array<Values, 3> shares;
+    // Moves the shares towards what squares tell, each of the number of pixels that pixels_of(i) tells.
+    const auto prove = [&](std::size_t k, const auto &mean, const auto &entry, const auto &pixels_of,
+                           double deviations) {
+        const Values around = mean(samples);
+        std::array<Answers, 2> here;
+        for (std::size_t a = 0; a < (differ ? 2u : 1u); ++a)
+            here[a] = {mean(answers[a][k].confirmed), mean(answers[a][k].energy),
+                       mean(answers[a][k].variance)};
+        for_cells(grid, [&](std::size_t i) {
+            const Answers &of = here[differ && samples[i] < around[entry(i)]];
+            shares[k][i] = proven(of, entry(i), pixels * pixels_of(i), deviations, shares[k][i]);
+        });
+    };
     for (std::size_t k = 0; k < 3; ++k) {
-        const Answers whole{mean(answers[k].confirmed), mean(answers[k].energy), mean(answers[k].variance)};
-        shares[k].assign(grid.size(),
-                         proven(whole, 0, pixels * double(grid.size()), FinishTuning::proof_deviations, 0));
-        for (const int radius : FinishTuning::square_radii) {
-            Answers here = answers[k];
-            for (Values *values : {&here.confirmed, &here.energy, &here.variance})
-                box_mean(*values, grid, radius);
-            for_cells(grid, [&](std::size_t i) {
-                shares[k][i] = proven(here, i, pixels * entries_around(grid, i, radius),
-                                      FinishTuning::square_deviations, shares[k][i]);
-            });
-        }
+        shares[k].assign(grid.size(), 0.0f);
+        prove(
+            k, mean_of_all, [](std::size_t) { return std::size_t{0}; },
+            [&](std::size_t) { return double(grid.size()); }, FinishTuning::proof_deviations);
+        for (const int radius : FinishTuning::square_radii)
+            prove(
+                k,
+                [&](Values values) {
+                    box_mean(values, grid, radius);
+                    return values;
+                },
+                [](std::size_t i) { return i; },
+                [&](std::size_t i) { return entries_around(grid, i, radius); },
+                FinishTuning::square_deviations);
         box_mean(shares[k], grid, FinishTuning::trust_radius);
     }
     return shares;
