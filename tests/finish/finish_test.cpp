@@ -116,6 +116,15 @@ TEST(Finish, WhatOthersMadeIsTakenWhereItIsNearer) {
     EXPECT_GT(decibels_of(finished(layer).picture, truth), without + 3);
 }
 
+// What is given comes first: it corrects what is otherwise left to noisier candidates.
+TEST(Finish, WhatIsGivenIsOfferedBeforeTheRays) {
+    const Colours other = synthetic_truth(grid, 1);
+    LayerToFinish layer = layer_of(grid, other, blurred(other, grid, 3), {64, 16});
+    const double without = decibels_of(finished(layer).picture, other);
+    layer.given.push_back({blurred(rays_of(other, 64, 5), grid, 1), blurred(rays_of(other, 16, 6), grid, 1)});
+    EXPECT_GT(decibels_of(finished(layer).picture, other), without + 0.1);
+}
+
 // The gathered picture is wrong nearly everywhere; what a denoiser leaves of each render is better.
 TEST(Finish, IsNotWorseThanWhatIsGiven) {
     for (const auto &samples : {std::array<double, 2>{2, 2}, {8, 2}, {8, 8}}) {
