@@ -54,39 +54,37 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
     }
 }
 
-// `box`, extended to whole blocks of sub-pixels inside the display window.
-Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int across) {
-    const Imath::Box2i inside = common_box(subpixels_in(reduced(box, across), across), display);
-    if (!inside.isEmpty()) box.extendBy(inside);
-    return box;
-}
-
-// `box`, extended inside the display window to whole tiles counted from its corner: the same pixels lie in the same
-// tiles, and lamps in the same cells, wherever the data window begins.
-Imath::Box2i whole_tiles(Imath::Box2i box, const Imath::Box2i &display) {
+// `box`, extended inside the display window to whole blocks of so many pixels, counted from the window's corner.
+Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int size) {
     const Imath::Box2i inside = common_box(box, display);
     if (inside.isEmpty()) return box;
-    const auto before = [](int pixels) { return pixels / lens_tile_size * lens_tile_size; };
     for (const int axis : {0, 1}) {
-        const int first = display.min[axis], last = inside.max[axis] - first;
-        box.min[axis] = std::min(box.min[axis], first + before(inside.min[axis] - first));
+        const int corner = display.min[axis];
+        const auto begin_of = [&](int pixel) { return corner + (pixel - corner) / size * size; };
+        box.min[axis] = std::min(box.min[axis], begin_of(inside.min[axis]));
         box.max[axis] =
-            std::max(box.max[axis], std::min(display.max[axis], first + before(last) + lens_tile_size - 1));
+            std::max(box.max[axis], std::min(display.max[axis], begin_of(inside.max[axis]) + size - 1));
     }
     return box;
 }
 
-// `ldi` with added pixels as far as the blur reaches into the display window, in whole tiles; empty if it has them all.
-// `picture` grows by what the blur reaches, in whole blocks of sub-pixels.
-std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         int across, Imath::Box2i &picture) {
-    if (lens.radius > 0 && !holds(picture, ldi.windows.display))
-        picture.extendBy(reached_display(ldi, lens, looks));
-    picture = whole_blocks(picture, ldi.windows.display, across);
-    const Imath::Box2i tiles = whole_tiles(picture, ldi.windows.display);
-    if (holds(ldi.windows.data, tiles)) return {};
-    check_growth(in, ldi, tiles);
-    return padded(ldi, tiles);
+// The gathered pixels, and as many more as the blur reaches inside the display window, in whole blocks of sub-pixels.
+Imath::Box2i with_blur(const GatherWindows &frame, const Ldi &ldi, const ThinLens &lens,
+                       const LensLooks &looks) {
+    const Imath::Box2i &display = ldi.windows.display;
+    Imath::Box2i box = frame.gathered;
+    if (lens.radius > 0 && !holds(box, display)) box.extendBy(reached_display(ldi, lens, looks));
+    return whole_blocks(box, display, frame.subpixels.across);
+}
+
+// Gathers whole tiles, and adds the pixels to the LDI that it lacks. A pixel then lies in the same tile, and a lamp in the
+// same cell, wherever the data window begins.
+void gather_whole_tiles(GatherWindows &frame, const OpenedLdi &in) {
+    const Ldi &ldi = frame.ldi(in);
+    frame.gathered = whole_blocks(frame.gathered, ldi.windows.display, lens_tile_size);
+    if (holds(ldi.windows.data, frame.gathered)) return;
+    check_growth(in, ldi, frame.gathered);
+    frame.changed = padded(ldi, frame.gathered);
 }
 
 // How many pixels of the LDI, across and down, become one gathered pixel: more than 1 for previews.
@@ -172,12 +170,10 @@ GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in) 
 
 void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
                     const ThinLens &lens, const LensLooks &looks) {
-    if (options.overscan == OutputOverscan::grow)
-        if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.subpixels.across, frame.gathered))
-            frame.changed = std::move(padded);
+    const bool grows = options.overscan == OutputOverscan::grow;
+    if (grows) frame.gathered = with_blur(frame, frame.ldi(in), lens, looks);
     need_all(frame, frame.ldi(in).windows.display);
-    if (options.overscan == OutputOverscan::grow)
-        frame.gathered = whole_tiles(frame.gathered, frame.ldi(in).windows.display);
+    if (grows) gather_whole_tiles(frame, in);
     if (options.overscan == OutputOverscan::crop)
         frame.picture = common(frame.picture, reduced(frame.ldi(in).windows.display, frame.subpixels.across),
                                "`overscan=crop`: the display window");

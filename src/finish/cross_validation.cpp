@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sparselens {
 
@@ -74,53 +75,47 @@ float proven(const Answers &square, std::size_t i, double pixels, double deviati
     return std::clamp(share + float(std::max(proof, 0.0) * left / double(square.energy[i])), 0.0f, 1.0f);
 }
 
-Values mean_of_all(const Values &values) {
-    return Values(1, float(std::accumulate(values.begin(), values.end(), 0.0) / double(values.size())));
+// Means over the square of this radius around each entry; of the whole grid without a radius.
+Values means_around(Values values, const ArrayGrid &grid, std::optional<int> radius) {
+    if (radius)
+        box_mean(values, grid, *radius);
+    else
+        std::ranges::fill(values,
+                          float(std::accumulate(values.begin(), values.end(), 0.0) / double(values.size())));
+    return values;
 }
 
-// The share of each picture's change that is accepted, for each cell. Evidence counts by its samples for a cell that has
-// as many as those around it: their noise hides nothing. For a cell with fewer, all count alike: those with many do not
-// speak for it.
+// The share of each picture's change that is accepted, for each cell. If a cell has at least the mean samples of its
+// square, evidence counts by its samples, so the noise of few samples hides nothing. If it has fewer, all evidence counts
+// alike, so cells with many samples do not decide for it.
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells) {
     const ArrayGrid &grid = cells.grid();
     const auto pixels = double(cells.side() * cells.side());
     Values samples = evidence.samples[0];
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] += evidence.samples[1][i];
     const bool differ = std::ranges::any_of(samples, [&](float v) { return v != samples[0]; });
-    const std::array<std::array<Answers, 3>, 2> answers{answers_of(evidence, grid, false),
-                                                        differ ? answers_of(evidence, grid, true)
-                                                               : std::array<Answers, 3>{}};
+    std::vector<std::array<Answers, 3>> answers{answers_of(evidence, grid, false)}; // by samples, then alike
+    if (differ) answers.push_back(answers_of(evidence, grid, true));
     std::array<Values, 3> shares;
-    // Moves the shares towards what squares tell, each of the number of pixels that pixels_of(i) tells.
-    const auto prove = [&](std::size_t k, const auto &mean, const auto &entry, const auto &pixels_of,
-                           double deviations) {
-        const Values around = mean(samples);
-        std::array<Answers, 2> here;
-        for (std::size_t a = 0; a < (differ ? 2u : 1u); ++a)
-            here[a] = {mean(answers[a][k].confirmed), mean(answers[a][k].energy),
-                       mean(answers[a][k].variance)};
-        for_cells(grid, [&](std::size_t i) {
-            const Answers &of = here[differ && samples[i] < around[entry(i)]];
-            shares[k][i] = proven(of, entry(i), pixels * pixels_of(i), deviations, shares[k][i]);
-        });
+    for (Values &of : shares) of.assign(grid.size(), 0.0f);
+    const auto prove = [&](std::optional<int> radius, double deviations) {
+        const Values around = means_around(samples, grid, radius);
+        const int reach = radius.value_or(std::max(grid.width(), grid.height()));
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::vector<Answers> here;
+            for (const std::array<Answers, 3> &of : answers)
+                here.push_back({means_around(of[k].confirmed, grid, radius),
+                                means_around(of[k].energy, grid, radius),
+                                means_around(of[k].variance, grid, radius)});
+            for_cells(grid, [&](std::size_t i) {
+                shares[k][i] = proven(here[differ && samples[i] < around[i]], i,
+                                      pixels * entries_around(grid, i, reach), deviations, shares[k][i]);
+            });
+        }
     };
-    for (std::size_t k = 0; k < 3; ++k) {
-        shares[k].assign(grid.size(), 0.0f);
-        prove(
-            k, mean_of_all, [](std::size_t) { return std::size_t{0}; },
-            [&](std::size_t) { return double(grid.size()); }, FinishTuning::proof_deviations);
-        for (const int radius : FinishTuning::square_radii)
-            prove(
-                k,
-                [&](Values values) {
-                    box_mean(values, grid, radius);
-                    return values;
-                },
-                [](std::size_t i) { return i; },
-                [&](std::size_t i) { return entries_around(grid, i, radius); },
-                FinishTuning::square_deviations);
-        box_mean(shares[k], grid, FinishTuning::trust_radius);
-    }
+    prove({}, FinishTuning::proof_deviations);
+    for (const int radius : FinishTuning::square_radii) prove(radius, FinishTuning::square_deviations);
+    for (Values &of : shares) box_mean(of, grid, FinishTuning::trust_radius);
     return shares;
 }
 

@@ -179,12 +179,16 @@ public:
         if (!box.isEmpty()) part_ = {Position() + box.min, Position() + box.max};
     }
     void cut(LayerToFinish &layer) const {
-        if (part_ == grid_.box()) return;
-        layer.grid = ArrayGrid(width(), part_.max.row - part_.min.row + 1);
-        cut(layer.gathered);
+        if (is_whole()) return;
+        layer.grid = ArrayGrid(width(), height());
+        const auto cut_all = [&](Colours &picture) {
+            for (Values &plane : picture) cut(plane);
+        };
+        cut_all(layer.gathered);
         for (std::size_t k = 0; k < 2; ++k) {
-            cut(layer.rays[k]), cut(layer.averaged[k]);
-            for (Halves &given : layer.given) cut(given[k]);
+            cut_all(layer.rays[k]);
+            cut_all(layer.averaged[k]);
+            for (Halves &given : layer.given) cut_all(given[k]);
             cut(layer.samples.by_pixel[k]);
         }
         cut(layer.nothing);
@@ -192,25 +196,25 @@ public:
     Imath::Box2i box(const Grid &grid) const { return {grid.pixel(part_.min), grid.pixel(part_.max)}; }
     // Puts the part back, with this value around it.
     void spread(Values &plane, float around) const {
-        if (part_ == grid_.box()) return;
+        if (is_whole()) return;
         const Values part = std::exchange(plane, Values(grid_.size(), around));
-        for (int row = 0; row <= part_.max.row - part_.min.row; ++row)
+        for (int row = 0; row < height(); ++row)
             std::copy_n(part.begin() + std::ptrdiff_t(row) * width(), width(), plane.begin() + begin_of(row));
     }
 
 private:
+    bool is_whole() const { return part_ == grid_.box(); }
     int width() const { return part_.max.column - part_.min.column + 1; }
+    int height() const { return part_.max.row - part_.min.row + 1; }
+    // The index of the first value in a row of the part.
     std::ptrdiff_t begin_of(int row) const {
         return std::ptrdiff_t(grid_.index(part_.min + Imath::V2i(0, row)));
-    }
-    void cut(Colours &picture) const {
-        for (Values &plane : picture) cut(plane);
     }
     template <typename Plane>
     void cut(Plane &plane) const {
         if (plane.empty()) return;
         Plane part;
-        for (int row = 0; row <= part_.max.row - part_.min.row; ++row)
+        for (int row = 0; row < height(); ++row)
             part.insert(part.end(), plane.begin() + begin_of(row), plane.begin() + begin_of(row) + width());
         plane = std::move(part);
     }
@@ -385,11 +389,11 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         LayerToFinish layer = layer_of(picture, channels);
         layer.nothing = empty;
         const FilledPart part(layer);
-        RayCounts samples = layer.samples;
         part.cut(layer);
         const bool beauty = std::ranges::find(channels, colours[0]) != channels.end(),
                    coverage = colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage;
-        if (beauty) finished.warnings = check_lens(layer).warnings(); // whose light has that of fireflies
+        // The renders' brightness includes that of fireflies.
+        if (beauty) finished.warnings = check_lens(layer).warnings();
         if (!coverage) leave_out_fireflies(layer);
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
@@ -400,7 +404,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
             finished.part = part.box(picture.gathered.windows.grid());
             finished.kept = std::move(result.kept);
             part.spread(finished.kept, 1);
-            finished.samples = std::move(samples);
+            finished.samples = picture.rays.samples();
         }
         if (coverage)
             for (float &alpha : result.picture[0]) alpha = std::clamp(alpha, 0.0f, 1.0f);

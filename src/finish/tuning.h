@@ -17,7 +17,7 @@ struct FinishTuning {
     static constexpr std::array<Window, 3> regression_windows{{{2, 4}, {2, 2}, {1, 1}}};
     // How strongly a slope is drawn towards that of the whole picture, as a share of the squared mean of the guide.
     static constexpr float regression_prior = 0.1f;
-    // Where the guide is black: as a share of its mean square in the whole picture.
+    // The prior's part where the guide is black, as a share of the guide's mean square in the whole picture.
     static constexpr float regression_floor = 1e-3f;
     // When a picture is exposed for the tone curve, a pixel counts for at most this many times the mean of lit pixels.
     static constexpr double most_over_mean = 16;
@@ -68,9 +68,9 @@ struct FinishTuning {
     static constexpr double little_noise = 0.4;
     static constexpr int noise_block_px = 16;
 
-    // A pixel of one render this many times as bright as what confirms it is a firefly (fireflies.h): so many of the
-    // pixels this near. Macro's hidden lamps, which few of its rays hit, lose .03 dB by it, .5 dB with a rank of 6, and
-    // 7 dB with a rank of 2 within a radius of 2.
+    // A firefly (fireflies.h) is this many times as bright as the pixel of this rank, counted from the brightest one,
+    // among those within this radius. Few rays hit the hidden lamps of macro: it loses .03 dB by this, .5 dB with rank 6,
+    // and 7 dB with rank 2 within radius 2.
     static constexpr float firefly_times = 4;
     static constexpr int firefly_radius = 8;
     static constexpr std::size_t firefly_rank = 4;

@@ -57,13 +57,9 @@ float slope(float before, float here, float after) {
 
 class Fit {
 public:
-    Fit(const Image &picture, const ArrayGrid &grid, std::span<const float> depths)
-        : windows_(picture.windows), grid_(grid),
-          columns_(windows_.data.min.x, windows_.data.max.x, windows_.display.min.x, windows_.display_width(),
-                   grid.width()),
-          rows_(windows_.data.min.y, windows_.data.max.y, windows_.display.min.y, windows_.display_height(),
-                grid.height()),
-          cells_(grid.size()) {
+    Fit(const Image &picture, const ArrayGrid &grid, const Axis &columns, const Axis &rows,
+        std::span<const float> depths)
+        : windows_(picture.windows), grid_(grid), columns_(columns), rows_(rows), cells_(grid.size()) {
         const std::array rgb = find_rgb(picture.channels);
         for (std::size_t k = 0; k < rgb.size(); ++k)
             if (rgb[k] != npos) rgb_[k] = picture.plane(rgb[k]);
@@ -71,11 +67,6 @@ public:
             for (int column = 0; column < grid.width(); ++column)
                 describe(Position(column, int(row)), depths);
         });
-    }
-
-    Position cell_of(std::size_t pixel) const {
-        const Position at = windows_.grid().array().position(pixel);
-        return Position(columns_.cell[std::size_t(at.column)], rows_.cell[std::size_t(at.row)]);
     }
 
     std::vector<float> medians() const {
@@ -155,7 +146,7 @@ private:
 
     const Windows &windows_;
     ArrayGrid grid_;
-    Axis columns_, rows_;
+    const Axis &columns_, &rows_;
     std::array<std::span<const float>, 3> rgb_; // empty: no such channel
     std::vector<Cell> cells_;
 };
@@ -226,12 +217,15 @@ void Fit::fill(const Position &at, std::span<float> result) const {
 } // namespace
 
 std::vector<float> fit_depth(const Image &picture, const ArrayGrid &cells, std::span<const float> depths) {
-    const Windows &windows = picture.windows;
-    const Fit fit(picture, cells, depths);
-    if (cells.width() < windows.display_width() && cells.height() < windows.display_height())
-        return fit.medians();
-    std::vector<float> result(windows.pixels());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = depths[cells.index(fit.cell_of(i))];
+    const Windows &w = picture.windows;
+    const Axis columns(w.data.min.x, w.data.max.x, w.display.min.x, w.display_width(), cells.width());
+    const Axis rows(w.data.min.y, w.data.max.y, w.display.min.y, w.display_height(), cells.height());
+    if (cells.width() < w.display_width() && cells.height() < w.display_height())
+        return Fit(picture, cells, columns, rows, depths).medians();
+    std::vector<float> result;
+    result.reserve(w.pixels());
+    for (const int row : rows.cell)
+        for (const int column : columns.cell) result.push_back(depths[cells.index(Position(column, row))]);
     return result;
 }
 

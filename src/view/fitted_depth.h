@@ -8,9 +8,9 @@
 // with d, the distance of its middle from the pixel, in cells; m, from 0 to 1, which tells how far its depth lies between
 // the least and the largest one of the 3 x 3 cells around it, as that of a cell that mixes two surfaces; c, the difference
 // of its mean colour from that of the pixel; and s^2, the mean variance of the colours within a cell, over the 3 x 3 cells
-// around the pixel. Because s follows from the picture, exposure does not matter. What a cell says lies on a plane
-// through its depth, with the smaller ones of the slopes to its neighbours on both sides: a plane stays a plane, and no
-// depth overshoots.
+// around the pixel. Because s follows from the picture, exposure does not matter. A cell gives the depth of a plane through
+// its own depth. The slopes of this plane are the smaller ones of those to the neighbours on both sides, so a plane stays
+// a plane, and no depth overshoots.
 #pragma once
 
 #include "base/grid.h"

@@ -84,7 +84,7 @@ TEST(AskRays, CountsAreLimited) {
     }
 }
 
-// What lies outside of the pixels that may need rays gets none, and does not count in the mean.
+// Pixels outside of those that may need rays get none, and do not count in the mean.
 TEST(AskRays, AsksInItsPixelsAlone) {
     const Imath::Box2i left({0, 0}, {15, 15});
     const AskedRays asked =

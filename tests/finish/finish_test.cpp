@@ -116,7 +116,7 @@ TEST(Finish, WhatOthersMadeIsTakenWhereItIsNearer) {
     EXPECT_GT(decibels_of(finished(layer).picture, truth), without + 3);
 }
 
-// What is given comes first: it corrects what is otherwise left to noisier candidates.
+// dof-finish offers given pictures before the rays. Otherwise noisier candidates correct the same pixels.
 TEST(Finish, WhatIsGivenIsOfferedBeforeTheRays) {
     const Colours other = synthetic_truth(grid, 1);
     LayerToFinish layer = layer_of(grid, other, blurred(other, grid, 3), {64, 16});

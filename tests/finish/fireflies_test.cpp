@@ -1,4 +1,4 @@
-// Light of one render that nothing confirms.
+// Bright pixels of one render: fireflies are left out, lamps stay.
 #include "finish/fireflies.h"
 #include "finish/synthetic.h"
 

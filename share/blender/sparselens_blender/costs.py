@@ -25,10 +25,10 @@ def share_in_picture(header):
 
 
 def in_words(paths, gathering=None):
-    """What the views in these files cost. A render through the lens is taken
-    for as long as the centre view would be without overscan. With the seconds
-    of gathering also from which picture on the views save time. Nothing where
-    Blender has not written its times."""
+    """Returns a line that says what the views in these files cost, or an empty
+    text if Blender has not written its times. A render through the lens counts
+    as long as the centre view without overscan. If the seconds of gathering
+    are given, the line also says from which focus on the views save time."""
     headers = [(path, header_of(path) or {}) for path in paths]
     total = sum(seconds_of(header) for _, header in headers)
     centers = [seconds_of(header) * share_in_picture(header)
