@@ -2,6 +2,7 @@
 #include "gpu/warp/prefix_sums.h"
 
 #include <numeric>
+#include <random>
 
 namespace sparselens::gpu {
 namespace {
