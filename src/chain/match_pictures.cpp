@@ -223,7 +223,8 @@ void set_intervals(MatchedLens &of, std::optional<double> stops_by_radius) {
 std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &fit, const Evidence &evidence,
                      bool is_ambiguous) {
     if (evidence.textured < MatchTuning::least_textured)
-        return "the region of the plate shows nothing to compare, or something else than the LDI; check the shot "
+        return "the region of the plate shows nothing to compare, or something else than the LDI; check the "
+               "shot "
                "and the frame, or choose a region with texture";
     if (lens.matched_share < MatchTuning::least_matched)
         return fmt::format(
