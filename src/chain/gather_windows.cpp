@@ -241,7 +241,11 @@ OpenedLdi &LdiCache::load(const LdiRequest &request, const Notify &notify, const
         read_now_ = true;
         notify({NoticeKind::reading, path});
         OpenedLdi opened = open_ldi(path, {lens, request.depth, {}, disparities_}, choose);
-        if (of_sequence_) disparities_ = opened.disparities;
+        if (of_sequence_) {
+            disparities_ = opened.disparities;
+            if (!focus_) focus_ = opened.focus;
+            opened.focus = focus_;
+        }
         notify_samples(notify, opened);
         recolor_by(recolor, request.depth.picture, colour, opened, notify);
         if (recolor.empty()) opened.header = to_linear(notify, colour, path, opened.header, opened.ldi);

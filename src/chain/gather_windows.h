@@ -95,7 +95,7 @@ struct LdiRequest {
 
 class LdiCache {
 public:
-    // `of_sequence`: the disparities of all photographs are scaled as those of the first.
+    // `of_sequence`: the disparities of all photographs are scaled as those of the first, which also has the focus of all.
     explicit LdiCache(bool of_sequence = false) : of_sequence_(of_sequence) {}
 
     // Opens, recolours and makes linear the requested file, if the last file was another, was read with other options,
@@ -117,6 +117,7 @@ private:
     Flicker flicker_;
     bool of_sequence_;
     std::optional<DisparityRange> disparities_; // of its first photograph
+    std::optional<PixelInFocus> focus_;
 };
 
 } // namespace sparselens

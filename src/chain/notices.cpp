@@ -73,6 +73,9 @@ constexpr std::array table{
     Words{NoticeKind::clustered_blindly, note,
           "{0} samples to {1}, by inverse depth alone, because the lens is unknown"},
     Words{NoticeKind::focused, note, "the focus distance is {0:g}, the depth of pixel {1:g},{2:g}"},
+    Words{NoticeKind::usual_focus, once,
+          "{file}: the focus is on pixel {0:g},{1:g}, the nearest large thing near the middle; `focus_pixel` "
+          "chooses another"},
     Words{NoticeKind::used_lens, note,
           "the picture is that of a lens of radius {0:g}, focal length {1:g} pixels, focused at {2:g}"},
     Words{NoticeKind::wide_lens, warning,

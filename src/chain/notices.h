@@ -45,8 +45,9 @@ enum class NoticeKind {
     clustered,         // samples before and after, the largest change of the CoC in pixels
     clustered_blindly,
     // Pictures.
-    focused,   // depth, x, y of the pixel
-    used_lens, // radius, focal length in pixels, focus
+    focused,     // depth, x, y of the pixel
+    usual_focus, // x, y of the pixel
+    used_lens,   // radius, focal length in pixels, focus
     wide_lens,
     round_aperture,   // method
     overscan,         // pixels needed, pixels rendered

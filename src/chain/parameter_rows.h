@@ -60,6 +60,11 @@ inline Parameter keyed(Parameter row) {
     row.keyable = true;
     return row;
 }
+inline Parameter or_share(Parameter row) {
+    row.or_share = true;
+    row.wanted += ", or a share of the picture's width (e.g. 2%)";
+    return row;
+}
 inline Parameter of_tools(Parameter row) { // Python has it elsewhere, or not at all
     row.python = PythonCall::none;
     return row;
@@ -68,6 +73,7 @@ inline Parameter of_tools(Parameter row) { // Python has it elsewhere, or not at
 // Read the value of a row from text.
 bool read_place(const Parameter &row, const std::string &text, double &place);
 bool read_place(const Parameter &row, const std::string &text, int &place);
+bool read_place(const Parameter &row, const std::string &text, PhotographBlur &place);
 bool read_place(const Parameter &row, const std::string &text, Imath::V2d &place);
 bool read_place(const Parameter &row, const std::string &text, Imath::V2i &place);
 bool read_place(const Parameter &row, const std::string &text, Imath::Box2i &place);

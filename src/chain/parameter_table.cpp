@@ -33,6 +33,13 @@ bool read_place(const Parameter &row, const std::string &text, int &place) {
     place = whole[0];
     return place >= row.least && place <= row.most;
 }
+bool read_place(const Parameter &row, const std::string &text, PhotographBlur &place) {
+    place.of_width = text.ends_with('%');
+    const bool is_number =
+        read_place(row, text.substr(0, text.size() - std::size_t(place.of_width)), place.value);
+    if (place.of_width) place.value /= 100;
+    return is_number;
+}
 bool read_place(const Parameter &, const std::string &text, Imath::V2d &place) {
     return read_numbers(text, {&place.x, 2}) && std::isfinite(place.x) && std::isfinite(place.y);
 }
@@ -238,11 +245,12 @@ Rows<PictureRequest> gather_rows() {
     const Rows<PictureRequest> lens{
         {on_page(word("quality", {"draft", "normal", "final"},
                       "Quality of the blur: final takes more lens points and more time, draft less (default: "
-                      "normal)")),
+                      "normal; of a photograph: final)")),
          [](const Parameter &row, const std::string &text, PictureRequest &request) {
              Quality &quality = request.picture.gather.lens.quality;
              const bool is_word = read_place(row, text, quality);
              request.windows.joins_subpixels = quality == Quality::draft;
+             request.any_quality = false;
              return is_word;
          }},
         {whole("lens-samples", "N",
@@ -274,10 +282,11 @@ Rows<PictureRequest> gather_rows() {
                   "Focus on the front surface in this pixel, in EXR coordinates; instead of `focus_distance`",
                   Form::pixel, "X,Y in whole pixels (e.g. 320,180)")),
          in(&PictureRequest::focus_pixel)},
-        {keyed(on_page(number("blur", "PX",
-                              "Strongest blur of a photograph with a `disparity`: the radius, in pixels, of "
-                              "the disc that a white pixel of the depth becomes when black is in focus",
-                              at_least_0))),
+        {or_share(keyed(on_page(number("blur", "PX|N%",
+                                       "Strongest blur of a photograph with a `disparity`: the radius, in "
+                                       "pixels or as a share of the picture's width, of the disc that a "
+                                       "white pixel of the depth becomes when black is in focus",
+                                       at_least_0)))),
          in(&PictureRequest::blur)},
         {text("shutter-curve", "box|triangle|gaussian|FILE",
               "Weights of the moments of a shutter (%s in IN). FILE: lines of a time, from 0 (opening) to 1 "

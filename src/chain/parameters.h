@@ -44,6 +44,7 @@ struct Parameter {
     std::vector<std::string> words = {}; // of a word
     const char *group = "";              // of options in --help; empty: the first one
     const char *method = "";             // the only gather method that has it; empty: all
+    bool or_share = false;               // a number that may also be a share of the picture's width: 2%
     bool keyable = false;                // may have values keyed by frame
     bool page = false;                   // a page of dof-view may set it
     PageControl control = {};

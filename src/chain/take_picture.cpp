@@ -67,6 +67,8 @@ private:
         out_.header = in_.header;
         out_.samples_read = in_.samples_read;
         out_.samples_invisible = in_.invisible;
+        if (in_.depth == DepthMeaning::disparity && request_.any_quality)
+            by_.gather.lens.quality = Quality::final;
         aim();
         hold_out();
         frame_ = made_before ? std::move(*made_before) : gather_windows(request_.windows, in_);
@@ -97,11 +99,18 @@ private:
         if (const auto &pixel = request_.focus_pixel)
             work_.notify({.kind = NoticeKind::focused,
                           .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
+        else if (in_.focus && !request_.lens.focus_distance) {
+            const Imath::V2i &of_file = in_.focus->pixel;
+            const Imath::V2i at = reduced({of_file, of_file}, subpixels_of(request_.windows, in_).across).min;
+            work_.notify({NoticeKind::usual_focus, in_.name, {double(at.x), double(at.y)}});
+        }
         out_.lens = picture_lens(request_, in_, out_.camera);
         if (out_.lens.radius > 0)
             work_.notify({.kind = NoticeKind::used_lens,
                           .values = {out_.lens.radius, out_.lens.focal_px, out_.lens.focus}});
-        if (const double change = request_.blur.value_or(0) * in_.flicker; change > 0.5) // pixels: it is seen
+        const PhotographBlur blur = request_.blur.value_or(PhotographBlur());
+        if (const double change = blur.in_pixels(in_.ldi.windows.display_width()) * in_.flicker;
+            change > 0.5) // pixels: it is seen
             work_.notify({NoticeKind::flicker, in_.name, {change}});
         if (sees_past_views(out_.camera, out_.lens))
             work_.notify({.kind = NoticeKind::wide_lens, .parameter = "fstop"});
@@ -216,13 +225,14 @@ void set_blur(Camera &camera, const PictureRequest &request, const OpenedLdi &in
         throw UsageError(
             "`blur`: is for depths that are a disparity (`disparity`); for others, give the lens by "
             "`fstop` or `lens_radius`");
-    if (!request.blur)
+    const LensValues &lens = request.lens;
+    if (lens.fstop || lens.lens_radius || lens.focal_length_mm || lens.sensor_width_mm)
         throw UsageError(in.name +
                          ": is a photograph, which needs no lens: give the largest radius of its blur in "
-                         "pixels (`blur=40`)");
-    if (!camera.focus_distance && !request.focus_pixel)
-        throw UsageError(in.name + ": the focus is unknown: give a pixel in focus (`focus_pixel=X,Y`)");
-    camera.lens_radius = radius_of_blur(*request.blur, resolve_focal_px(camera, in.ldi.windows));
+                         "place of a lens (`blur=2%`)");
+    if (!camera.focus_distance && !request.focus_pixel && in.focus) camera.focus_distance = in.focus->depth;
+    const double blur = request.blur.value_or(PhotographBlur()).in_pixels(in.ldi.windows.display_width());
+    camera.lens_radius = radius_of_blur(blur, resolve_focal_px(camera, in.ldi.windows));
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "../dof/lens/lens_gather.h"
 #include "../io/lens_file.h"
 #include "../lens/lens_looks.h"
+#include "../lens/photograph.h"
 #include "../lens/thin_lens.h"
 #include "../view/view.h"
 #include "gather_windows.h"
@@ -53,9 +54,10 @@ enum class Show { picture, coc, focus, layers, tiles };
 // ignored.
 struct PictureRequest : LdiRequest {
     std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; empty: `lens` has it
-    std::optional<double> blur = {};            // of a photograph, in place of a lens (lens/photograph.h)
+    std::optional<PhotographBlur> blur = {};    // of a photograph, in place of a lens
     GivenLooks looks = {};
     WindowOptions windows = {};
+    bool any_quality = true;     // none is asked for: a photograph is gathered at final quality
     PictureOptions picture = {}; // its holdout: as made by holdout_for(), if neither of the next two is set
     std::string holdout = {};    // a file
     const OpenedLdi *opened_holdout = nullptr;

@@ -191,6 +191,7 @@ OpenedLdi prepare_ldi(LdiFile file, const std::string &path, const OpenOptions &
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));
     opened.coverage_by_colour = has_coverage_by_colour(opened.ldi);
+    if (opened.depth == DepthMeaning::disparity) opened.focus = usual_focus(opened.ldi);
     opened.samples_read = opened.ldi.samples();
     opened.invisible = in_file - std::min(in_file, opened.samples_read);
     return opened;

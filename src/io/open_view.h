@@ -38,6 +38,12 @@ struct DisparityRange {
     double least = 0, most = 1;
 };
 
+// A pixel in focus, and the depth of its front surface.
+struct PixelInFocus {
+    Imath::V2i pixel;
+    double depth = 0;
+};
+
 struct OpenOptions {
     LensValues lens = {}; // empty values come from the file
     DepthOptions depth = {};
@@ -79,6 +85,7 @@ struct OpenedFile {
     double flicker =
         0; // of a photograph, since the frame before (deep/checks/flicker.h); 0: none, or unknown
     std::optional<DisparityRange> disparities = {}; // by which those of a photograph were scaled
+    std::optional<PixelInFocus> focus = {};         // usual_focus() of a photograph
 };
 
 struct OpenedView : OpenedFile {

@@ -1,6 +1,7 @@
 #include "io/photograph.h"
 
 #include "base/error.h"
+#include "deep/flatten.h"
 #include "io/display/icc_profile.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_channels.h"
@@ -8,6 +9,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
+#include "lens/photograph.h"
 #include "view/fitted_depth.h"
 
 #include <ImfChromaticitiesAttribute.h>
@@ -241,6 +243,31 @@ void repair_disparities(std::span<float> depths, const std::string &name, std::v
         d = std::isfinite(d)
                 ? float(std::max((double(d) - by.least) / (by.most - by.least), range ? farthest : 0))
                 : std::numeric_limits<float>::quiet_NaN();
+}
+
+std::optional<PixelInFocus> usual_focus(const Ldi &ldi) {
+    const Imath::Box2i &frame = ldi.windows.display;
+    const Imath::V2i quarter = frame.size() / 4;
+    const Imath::Box2i middle = common_box(ldi.windows.data, {frame.min + quarter, frame.max - quarter});
+    const int step = 1 + frame.size().x / 512; // some pixels tell enough
+    std::vector<PixelInFocus> found;
+    for (int y = middle.min.y; y <= middle.max.y; y += step)
+        for (int x = middle.min.x; x <= middle.max.x; x += step)
+            if (const float z = front_depth(ldi, {x, y}); z > 0) found.push_back({{x, y}, double(z)});
+    if (found.empty()) return {};
+    std::ranges::stable_sort(found, {}, &PixelInFocus::depth);
+    const auto disparity = [&](std::size_t i) { return disparity_of_depth(found[i].depth); };
+    const double reach = (disparity(0) - disparity(found.size() - 1)) / 16;
+    std::size_t first = 0, most = 0; // of those at about one depth
+    for (std::size_t i = 0, end = 0; i < found.size(); ++i) {
+        if (most >= found.size() / 10 && disparity(i) < disparity(first) - reach) break;
+        while (end < found.size() && disparity(end) >= disparity(i) - reach) ++end;
+        if (end - i > most) first = i, most = end - i;
+    }
+    const Imath::V2i centre = frame.min + frame.size() / 2;
+    const auto their_middle = std::span(found).subspan(first + most / 4, most / 2 + 1);
+    return *std::ranges::min_element(their_middle, {},
+                                     [&](const PixelInFocus &one) { return (one.pixel - centre).length2(); });
 }
 
 Camera photograph_camera() {

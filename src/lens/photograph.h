@@ -6,6 +6,13 @@
 
 namespace sparselens {
 
+// The blur in pixels, or as a share of the picture's width.
+struct PhotographBlur {
+    double value = 0.02;
+    bool of_width = true;
+    double in_pixels(int width) const { return of_width ? value * width : value; }
+};
+
 inline double depth_of_disparity(double disparity) { return 1 / (1 + disparity); }
 inline double disparity_of_depth(double z) { return 1 / z - 1; }
 

@@ -147,7 +147,9 @@ std::optional<std::string> Keywords::text_of(const Parameter &row, const char *n
     switch (row.form) {
     case ParameterForm::flag: return flag(name) ? std::optional<std::string>("") : std::nullopt;
     case ParameterForm::whole: return written(whole(name, row.least, row.most), whole_text);
-    case ParameterForm::number: return written(number(name, row.range), whole_text);
+    case ParameterForm::number:
+        if (row.or_share && left_.contains(name) && py::isinstance<py::str>(left_[name])) return text(name);
+        return written(number(name, row.range), whole_text);
     case ParameterForm::list: return if_filled(list(name));
     case ParameterForm::file: return if_filled(path(name));
     case ParameterForm::ldi: return {}; // an object, which the caller takes

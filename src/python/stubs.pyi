@@ -314,15 +314,16 @@ def gather(
     channels: Optional[Union[str, Sequence[str]]] = None,  # names of channels, layers or Cryptomattes, or "rgba", as a sequence
     # or separated by commas; default: all.
     method: Literal["lens", "selective"] = "lens",  # "lens" or "selective".
-    quality: Optional[Literal["draft", "normal", "final"]] = "normal",  # "draft", "normal" or "final"; for the method lens.
+    quality: Optional[Literal["draft", "normal", "final"]] = None,  # "draft", "normal" or "final" (default: "normal"; of a
+    # photograph: "final"); for the method lens.
     lens_samples: Optional[int] = 0,  # points of the lens in every tile, 0: as many as the quality needs; for the method lens.
     layer_tolerance: Optional[float] = 0.25,  # pixels. Layers of a pixel whose circles of confusion differ by less are merged
     # first; 0: none; for the method lens.
     layers: Optional[int] = 8,  # the number of layers kept apart in a pixel; for the method selective.
     focus_pixel: Optional[tuple[int, int]] = None,  # (x, y), focuses on the front surface in this pixel of the picture, instead
-    # of focus_distance.
-    blur: Optional[float] = None,  # pixels, for a photograph, in place of a lens: the radius of the disc that a white pixel of the
-    # depth becomes when black is in focus.
+    # of focus_distance (default, of a photograph: on the nearest large thing near its middle).
+    blur: Optional[Union[float, str]] = "2%",  # pixels or, as a str, a share of the picture's width, for a photograph, in place of
+    # a lens: the radius of the disc that a white pixel of the depth becomes when black is in focus.
     holdout: Optional[Ldi] = None,  # an Ldi that hides what is behind it and is not shown itself; it stays sharp unless
     # holdout_defocused.
     holdout_defocused: bool = False,

@@ -57,6 +57,13 @@ TEST(Parameters, PutTheirValues) {
     PictureRequest request;
     EXPECT_TRUE(put(gather_parameters(), "quality", request, "final"));
     EXPECT_EQ(request.picture.gather.lens.quality, Quality::final);
+    EXPECT_FALSE(request.any_quality);
+    EXPECT_TRUE(put(gather_parameters(), "blur", request, "40"));
+    EXPECT_EQ(request.blur->in_pixels(4000), 40);
+    EXPECT_TRUE(put(gather_parameters(), "blur", request, "2.5%"));
+    EXPECT_EQ(request.blur->in_pixels(4000), 100);
+    for (const char *wrong : {"2%%", "%", "-2%", "2 %", "nan%"})
+        EXPECT_FALSE(put(gather_parameters(), "blur", request, wrong)) << wrong;
     EXPECT_TRUE(put(gather_parameters(), "method", request, "selective"));
     EXPECT_EQ(request.picture.method, &gather_methods()[1]);
     EXPECT_TRUE(put(shown_parameters(), "show", request, "coc"));

@@ -1,7 +1,9 @@
 #include "base/error.h"
 #include "io/display/shown_picture.h"
+#include "io/exr/exr_deep_part.h"
 #include "io/exr/exr_flat.h"
 #include "io/photograph.h"
+#include "lens/photograph.h"
 #include "support/scratch_folder.h"
 
 #include <ImfStandardAttributes.h>
@@ -305,6 +307,33 @@ TEST(Disparities, WhiteMustBeNear) {
     EXPECT_TRUE(repaired({0.7f, 1, 0, 0.3f}).says("darker below than above"));  // by .4 of the range
     EXPECT_FALSE(repaired({0.6f, 1, 0, 0.4f}).says("darker below than above")); // by .2
     EXPECT_FALSE(repaired({0, 0.5f, 0.5f, 1}).says("darker below than above"));
+}
+
+// A large thing at the border and a small one in front of it are nearer; the ground behind it is larger.
+TEST(UsualFocus, IsOnTheNearestLargeThingNearTheMiddle) {
+    for (const Imath::V2i &corner : {Imath::V2i(0, 0), Imath::V2i(100, -50)}) {
+        const Imath::Box2i display(corner, corner + Imath::V2i(63, 47));
+        Image picture({display, {display.min - Imath::V2i(20, 0), display.max}, 1},
+                      {{"Z", PixelType::float32}});
+        const auto fill = [&](Imath::V2i from, Imath::V2i to, double disparity) {
+            for (int y = corner.y + from.y; y <= corner.y + to.y; ++y)
+                for (int x = corner.x + from.x; x <= corner.x + to.x; ++x)
+                    picture.at(0, x, y) = float(depth_of_disparity(disparity + 0.002 * (x - corner.x) / 64));
+        };
+        fill({-20, 0}, {63, 47}, 0.1);
+        fill({-20, 0}, {14, 47}, 0.9);
+        fill({34, 14}, {45, 40}, 0.7);
+        fill({38, 20}, {40, 22}, 1);
+        const auto focus = usual_focus(ldi_of_flat(picture, "Z"));
+        ASSERT_TRUE(focus);
+        EXPECT_NEAR(disparity_of_depth(focus->depth), 0.7, 0.01);
+        EXPECT_EQ(float(focus->depth), picture.at(0, focus->pixel.x, focus->pixel.y));
+        EXPECT_LT((focus->pixel - corner - Imath::V2i(40, 24)).length2(), 64);
+    }
+    Ldi empty;
+    empty.windows = windows_of_size(8, 8);
+    empty.begin.resize(65);
+    EXPECT_FALSE(usual_focus(empty));
 }
 
 TEST(Disparities, LittleOfTheRangeIsTold) {

@@ -391,7 +391,9 @@ def test_a_photograph_is_gathered_as_the_tool_does(views, tool, tmp_path):
     sparselens.write(tmp_path / "python.png", sparselens.gather(ldi, blur=5, focus_pixel=(48, 27)))
     tool("dof-gather", photo, "--depth-file", depth, "--blur", 5, "--focus-pixel", "48,27", "-o", tmp_path / "tool.png")
     assert (tmp_path / "python.png").read_bytes() == (tmp_path / "tool.png").read_bytes() != photo.read_bytes()
-    with pytest.raises(sparselens.UsageError, match="blur=40"):
-        sparselens.gather(ldi, focus_pixel=(48, 27))
+    usual, said = (sparselens.gather(ldi, **given).pixels for given in ({}, dict(blur="2%", quality="final")))
+    assert numpy.array_equal(usual, said)
+    with pytest.raises(sparselens.UsageError, match="blur: must be a number .* share of the picture's width .*, not 2%%"):
+        sparselens.gather(ldi, blur="2%%")
     with pytest.raises(sparselens.UsageError, match="fstop"):
         sparselens.gather(ldi, blur=5, fstop=2, focus_pixel=(48, 27))

@@ -92,9 +92,10 @@ printf '\x93NUMPY\1\0v\0' >depth.npy
 wrong 1 'depth.npy: is a NumPy array: save it as a 16-bit PNG' --depth-file depth.npy --blur 6 "${sharp[@]}"
 wrong 1 'none.png: cannot read' --depth-file none.png --blur 6 "${sharp[@]}"
 wrong 2 'photo.jpg: is a picture without depth: give its depth by --depth-file' --blur 6 "${sharp[@]}"
-wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png "${sharp[@]}"
-wrong 2 'is a photograph, .*\(--blur 40\)' --depth-file depth8.png --fstop 2 "${sharp[@]}"
-wrong 2 'the focus is unknown: .*--focus-pixel' --depth-file depth8.png --blur 6
+wrong 2 'is a photograph, .*\(--blur 2%\)' --depth-file depth8.png --fstop 2 "${sharp[@]}"
+for blur in 2%% % -2% 1:2%,3:20; do
+    wrong 2 "--blur: must be a number .*, or a share of the picture's width \(e.g. 2%\), not '$blur'" --depth-file depth8.png --blur "$blur"
+done
 for lens in --fstop --lens-radius --focal-length --sensor-width; do
     wrong 2 "--blur excludes $lens|$lens excludes --blur" --depth-file depth8.png --blur 6 "$lens" 2 "${sharp[@]}"
 done
@@ -102,10 +103,24 @@ fails_saying 2 '--blur: is for depths that are a disparity' "$bin/dof-gather" ce
 exits 0 "$bin/dof-gather" photo.jpg -o x.png --depth-file inverted.png --blur 6 "${sharp[@]}"
 grep -q 'its depth is darker below than above.*--invert' stderr || fail "inverted: $(cat stderr)"
 
+# Blur is 2 % of the width, the focus is on the nearest large thing near the middle, which one line says, and the quality is
+# final, unless other values are given.
+exits 0 "$bin/dof-gather" photo.jpg --depth-file depth8.png -o usual.png
+[ "$(wc -l <stderr)" = 1 ] && chosen=$(sed -n 's/.*the focus is on pixel \([0-9]*,[0-9]*\), .*; --focus-pixel chooses another$/\1/p' stderr) && [ "$chosen" ] ||
+    fail "the usual focus: $(cat stderr)"
+for words in "--blur 2%" "--blur 6.4 --quality final"; do
+    # shellcheck disable=SC2086
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file depth8.png $words --focus-pixel "$chosen" -o same.png
+    silent "$words"
+    cmp -s usual.png same.png || fail "$words: another picture than by default"
+done
+exits 0 "$bin/dof-gather" photo.jpg --depth-file depth8.png --quality normal --focus-pixel "$chosen" -o normal.png
+cmp -s usual.png normal.png && fail "--quality normal is final quality"
+
 # Video: a depth that is estimated anew for each frame flickers, and the warning says by how many pixels of blur.
 for frame in 1 2 3; do cp photo.jpg shot.000$frame.jpg && cp depth16.png d.000$frame.png; done
 oiiotool depth16.png --mulc 0.8 --addc 0.1 -d uint16 -o d.0003.png
-exits 0 "$bin/dof-gather" shot.####.jpg --depth-file d.####.png --frames 1-3 --blur 1:6,3:20 "${sharp[@]}" -o v.####.png
+exits 0 "$bin/dof-gather" shot.####.jpg --depth-file d.####.png --frames 1-3 --blur 1:2%,3:6% "${sharp[@]}" -o v.####.png
 [ "$(grep -c 'flickers: .* by [0-9.]* pixels or more' stderr)" = 1 ] && grep -q 'shot.0003.jpg: its depth flickers' stderr || fail "flicker: $(cat stderr)"
 
 # Disparities of video that are not between 0 and 1 have one range: what stands still stays as it is.
@@ -117,7 +132,7 @@ grep -q flickers stderr && fail "steady disparities flicker: $(cat stderr)"
 for frame in 1 3; do oiiotool y.000$frame.png --cut 100x60+220+20 -o part$frame.png; done
 oiiotool --fail 0 part1.png part3.png --diff >stdout || fail "what stands still changes: $(cat stdout)"
 
-# dof-view guesses blur and focus unless they are given, and its page sets the blur.
+# dof-view has the usual blur and focus unless they are given, and its page sets the blur.
 cd ..
 export PYTHONDONTWRITEBYTECODE=1
 blurs() { # blurs BLUR COMMAND...: the blur that the page begins with, and the largest CoC, which is what it sets.
@@ -128,5 +143,5 @@ with served(*sys.argv[3:]) as server:
     assert server.said("/facts")["blur"] == float(sys.argv[2]) and abs(cocs[1] / cocs[0] - 2) < 0.01, cocs' \
         "$source_dir/tests/viewing" "$@" || fail "dof-view: $(cat stderr)"
 }
-blurs 6 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png
+blurs 6.4 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png
 blurs 5 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png --disparity --blur 5 --focus-pixel 160,120 || fail "--blur"

@@ -53,15 +53,16 @@ TEST(ViewWords, AreReadAsACommandLineIs) {
 
 TEST(ViewWords, AFileOfExrHasNoDisplay) {
     const Words words{"a.exr", "--display", "P3", "--fstop", "2", "--view-transform=Raw"};
-    EXPECT_EQ(words_for(words, "b.png"), words);
-    EXPECT_EQ(words_for(words, "b.exr"), (Words{"a.exr", "--fstop", "2"}));
+    EXPECT_EQ(words_for(words, "b.png", "normal"), words);
+    EXPECT_EQ(words_for(words, "b.exr", "normal"), (Words{"a.exr", "--fstop", "2"}));
 }
 
 TEST(ViewWords, ACommandLeavesOutTheUsualQuality) {
-    EXPECT_EQ(words_for({"a.exr", "--quality", "normal", "--fstop", "2"}, "b.png"),
-              (Words{"a.exr", "--fstop", "2"}));
+    for (const char *usual : {"normal", "final"})
+        EXPECT_EQ(words_for({"a.exr", "--quality", usual, "--fstop", "2"}, "b.png", usual),
+                  (Words{"a.exr", "--fstop", "2"}));
     for (const Words &words : {Words{"a.exr", "--quality", "final"}, Words{"normal", "--quality"}})
-        EXPECT_EQ(words_for(words, "b.png"), words);
+        EXPECT_EQ(words_for(words, "b.png", "normal"), words);
 }
 
 TEST(ViewWords, AreCommandsElsewhere) {

@@ -107,7 +107,7 @@ void add_parameter(CLI::App &app, const Parameter &row, std::function<bool(const
                               ? app.add_flag_callback(
                                     name, [put] { put(""); }, help)
                               : app.add_option_function<std::string>(name, read, help)->type_name(row.unit);
-    if (row.form == ParameterForm::number) option->check(number(row.range));
+    if (row.form == ParameterForm::number && !row.or_share) option->check(number(row.range));
     if (row.form == ParameterForm::whole) option->check(CLI::Range(row.least, row.most));
     if (*row.group != '\0') option->group(row.group);
     for (const Parameter *other : picture_parameters())

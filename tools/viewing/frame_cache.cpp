@@ -228,16 +228,6 @@ float depth_in_the_middle(const LoadedFrame &frame) {
 
 } // namespace
 
-Words blur_guess(const LoadedFrame &frame, const PictureRequest &request) {
-    constexpr int of_width = 60;
-    Words words;
-    if (!request.blur)
-        words = {"--blur", fmt::format("{}", frame.in.ldi.windows.display_width() / of_width + 1)};
-    if (!request.lens.focus_distance && !request.focus_pixel)
-        words.insert(words.end(), {"--focus-distance", fmt::format("{}", depth_in_the_middle(frame))});
-    return words;
-}
-
 Words lens_guess(const LoadedFrame &frame, const Camera &camera) {
     const auto radius = lens_radius_of(camera);
     if (radius == 0.0) return {}; // nothing else is needed

@@ -62,9 +62,6 @@ LoadedFrame loaded_frame(OpenedLdi in, const WindowOptions &windows, const Colou
 // if all is known.
 Words lens_guess(const LoadedFrame &frame, const Camera &camera);
 
-// The same for a photograph, whose blur is then a 60th of its width.
-Words blur_guess(const LoadedFrame &frame, const PictureRequest &request);
-
 // The same in words for people; empty for no options.
 std::string guess_in_words(const Words &guess);
 

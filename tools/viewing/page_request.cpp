@@ -162,7 +162,8 @@ std::string python_value(ParameterForm form, const std::string &value) {
     switch (form) {
     case ParameterForm::flag: return "True";
     case ParameterForm::whole:
-    case ParameterForm::number: return value == "inf" ? "float('inf')" : value;
+    case ParameterForm::number:
+        return value == "inf" ? "float('inf')" : value.ends_with('%') ? quoted(value) : value;
     case ParameterForm::pair:
     case ParameterForm::pixel:
     case ParameterForm::box: return "(" + value + ")";
@@ -220,9 +221,9 @@ GatherCommand command_of(const Words &words, const std::string &output) {
     return options;
 }
 
-Words words_for(const Words &given, const std::string &output) {
+Words words_for(const Words &given, const std::string &output, const char *usual_quality) {
     const auto quality = std::ranges::find(given, "--quality");
-    const bool is_usual = given.end() - quality > 1 && quality[1] == "normal";
+    const bool is_usual = given.end() - quality > 1 && quality[1] == usual_quality;
     const Words words = is_usual ? words_without(given, "quality") : given;
     if (!output.ends_with(".exr")) return words;
     return without(words,

@@ -65,7 +65,7 @@ GatherCommand command_of(const Words &words, const std::string &output = "pictur
 
 // The words without the quality that is usual, and without those that do not apply to the output: an EXR file has no
 // display.
-Words words_for(const Words &given, const std::string &output);
+Words words_for(const Words &given, const std::string &output, const char *usual_quality);
 
 // The command that makes the picture, for a shell, or as a script for Python.
 std::string shell_command(const Words &words, const std::string &output);

@@ -74,8 +74,8 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
     : options_(options), words_(picture_words(words)), frames_(frames), tool_(tool),
       sequence_(commands_of(frames), tool) {
     const FrameCache::Held first = sequence_.frame(options.picture);
-    guess_ = first->in.depth == DepthMeaning::disparity ? blur_guess(*first, options.picture)
-                                                        : lens_guess(*first, first->camera(options.picture));
+    photograph_ = first->in.depth == DepthMeaning::disparity;
+    if (!photograph_) guess_ = lens_guess(*first, first->camera(options.picture));
     if (!guess_.empty()) warn(tool, guess_in_words(guess_));
     words_.insert(words_.end(), guess_.begin(), guess_.end());
     const auto is_there = [](const Image &) {};
@@ -131,7 +131,8 @@ std::string Viewer::facts(const PageRequest &wanted) {
         facts["frames"].push_back(frames_.number(i));
     if (!guess_.empty()) facts["guess"] = guess_in_words(guess_);
     if (camera.metres_per_unit) facts["metres_per_unit"] = *camera.metres_per_unit;
-    if (command.blur) facts["blur"] = *command.blur;
+    if (photograph_)
+        facts["blur"] = command.blur.value_or(PhotographBlur()).in_pixels(windows.display_width());
     if (camera.fstop) facts["fstop"] = finite_json(*camera.fstop);
     if (camera.focus_distance) facts["focus"] = finite_json(*camera.focus_distance);
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -242,8 +243,7 @@ std::optional<std::string> Viewer::match(const PageRequest &wanted) {
 
 std::optional<std::string> Viewer::rendered(const PageRequest &wanted) {
     PageRequest sharp = wanted;
-    const bool photograph = sequence_.frame(command_of_frame(wanted))->in.depth == DepthMeaning::disparity;
-    sharp.settings = {{photograph ? "blur" : "lens-radius", "0"}};
+    sharp.settings = {{photograph_ ? "blur" : "lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
     return queue_.make(wanted.page + "/rendered", [this, command, wanted](Progress &progress) {
         const ShownPixels pixels = Sequence::displayed(sequence_.taken(command, tool_, progress).image,
@@ -283,13 +283,16 @@ std::string Viewer::progress(const PageRequest &wanted) const {
 std::string Viewer::commands(const PageRequest &wanted) const {
     const std::string ending = "." + wanted.format;
     const std::string input = command_of(words_of(wanted)).input, output = output_name(input, ending);
-    const Words words = words_for(words_of(wanted), output);
+    const auto shown = [&](const Words &all) {
+        return words_for(all, output, photograph_ ? "final" : "normal");
+    };
+    const Words words = shown(words_of(wanted));
     // The input of all frames is the word of words_ at the index that the first frame's input has in its own words.
     const Words first = picture_words(frames_.words(0));
     std::string range = words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())];
     range = output_name(range, file_at(range, 1) == range ? ".####" + ending : ending);
     return Json{{"shell", shell_command(words, output)},
-                {"range", words_for(words_with(words_, wanted.settings, options_.presets), output)},
+                {"range", shown(words_with(words_, wanted.settings, options_.presets))},
                 {"range_output", range},
                 {"python", python_script(words, input, output)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -140,6 +140,7 @@ private:
     ViewOptions options_;
     Words words_; // of the pictures, for all frames
     Words guess_; // for the lens, appended to words_
+    bool photograph_ = false;
     FrameCommands frames_;
     const ToolContext &tool_;
     Sequence sequence_;

@@ -111,6 +111,13 @@ TEST(KeyedValue, OtherWordsAreNone) {
     EXPECT_THROW(keyed_value("1:5,1:6", 1), UsageError);
 }
 
+TEST(KeyedValue, IsAShareIfAllKeysAre) {
+    EXPECT_EQ(word_at_frame(parse_keys("1:2%,3:4%", KeyKind::number).value(), 2), "3%");
+    for (const char *text : {"1:2%,3:4", "1:2,3:4%", "1:%"})
+        EXPECT_FALSE(parse_keys(text, KeyKind::number)) << text;
+    EXPECT_FALSE(parse_keys("1:2,3%", KeyKind::pixel));
+}
+
 TEST(KeyedValue, MayHaveThousandsOfKeys) {
     std::string text = "0:0";
     for (int frame = 1; frame < 20'000; ++frame)

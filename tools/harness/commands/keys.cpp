@@ -35,9 +35,13 @@ bool add_key(Keys &keys, std::string_view text) {
     const std::size_t colon = text.find(':');
     if (colon == text.npos) return false;
     const std::string_view number = text.substr(0, colon);
+    const bool percent = keys.kind == KeyKind::number && text.ends_with('%');
     const auto frame = number_of<int>(number);
-    const auto value = parse_value(text.substr(colon + 1), keys.kind);
-    if (!frame || !value || std::ssize(number) > most_digits + (number.starts_with('-') ? 1 : 0))
+    const auto value =
+        parse_value(text.substr(colon + 1, text.size() - colon - 1 - std::size_t(percent)), keys.kind);
+    if (keys.by_frame.empty()) keys.percent = percent;
+    if (percent != keys.percent || !frame || !value ||
+        std::ssize(number) > most_digits + (number.starts_with('-') ? 1 : 0))
         return false;
     if (!keys.by_frame.emplace(*frame, *value).second)
         throw UsageError(fmt::format("frame {} has two keys, the second is '{}'", *frame, text));
@@ -74,7 +78,7 @@ Keys json_keys(const std::string &path, const std::string &text, KeyKind kind, s
     const auto found = file.find(name);
     if (found == file.end() || !found->is_object() || found->empty())
         throw UsageError(fmt::format("{}: has no \"{}\" with a value for each frame", path, name));
-    Keys keys{kind, {}};
+    Keys keys{.kind = kind};
     for (const auto &[frame, value] : found->items())
         if (!add_key(keys, key_text(frame, value)))
             throw UsageError(fmt::format("{}: \"{}\" has no number at frame {}", path, name, frame));
@@ -84,7 +88,7 @@ Keys json_keys(const std::string &path, const std::string &text, KeyKind kind, s
 } // namespace
 
 std::optional<Keys> parse_keys(std::string_view text, KeyKind kind) {
-    Keys keys{kind, {}};
+    Keys keys{.kind = kind};
     if (!add_keys(keys, text)) return {};
     return keys;
 }
@@ -92,7 +96,7 @@ std::optional<Keys> parse_keys(std::string_view text, KeyKind kind) {
 Keys read_keys(const std::string &path, KeyKind kind, std::string_view option) {
     const std::string text = read_text_file(path);
     if (trimmed(text).starts_with('{')) return json_keys(path, text, kind, option);
-    Keys keys{kind, {}};
+    Keys keys{.kind = kind};
     std::istringstream lines(text);
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -110,7 +114,7 @@ Keys read_keys(const std::string &path, KeyKind kind, std::string_view option) {
 
 std::string word_at_frame(const Keys &keys, int frame) {
     const auto word = [&](const KeyValue &value) {
-        if (keys.kind == KeyKind::number) return fmt::to_string(value.x);
+        if (keys.kind == KeyKind::number) return fmt::format("{}{}", value.x, keys.percent ? "%" : "");
         return keys.kind == KeyKind::pixel ? fmt::format("{:.0f},{:.0f}", value.x, value.y)
                                            : fmt::format("{},{}", value.x, value.y);
     };

@@ -18,7 +18,8 @@ struct KeyValue {
 
 struct Keys {
     KeyKind kind = KeyKind::number;
-    std::map<int, KeyValue> by_frame; // not empty
+    std::map<int, KeyValue> by_frame = {}; // not empty
+    bool percent = false;                  // of all numbers: 1:2%,24:4%
 };
 
 // Parses FRAME:VALUE,FRAME:VALUE or FRAME:X,Y;FRAME:X,Y; nothing if the text is not such a list. Throws UsageError if a
