@@ -55,7 +55,10 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
     const PictureChoice &choice = options.depth.picture;
     if (!is_photograph(path, choice)) return prepare_ldi(read_ldi(path, choice), path, options);
     OpenOptions of_photograph = options;
-    if (has_shown_ending(choice.depth_file) && options.depth.meaning == DepthMeaning::planar)
+    const bool own = choice.depth_file.empty(), unsaid = options.depth.meaning == DepthMeaning::planar;
+    if (own && !unsaid && options.depth.meaning != DepthMeaning::disparity)
+        throw UsageError("`depth`: is for a `depth_file`; the depth in a photograph says itself what it is");
+    if (unsaid && (own || has_shown_ending(choice.depth_file)))
         of_photograph.depth.meaning = DepthMeaning::disparity; // such a file has no depths in scene units
     return prepare_ldi(read_photograph(path, choice), path, of_photograph);
 }

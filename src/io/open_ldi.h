@@ -37,8 +37,8 @@ struct OpenedLdi : OpenedFile {
     bool reduced() const { return !std::holds_alternative<AllSamples>(held); }
 };
 
-// Opens any deep EXR, a flat one with depth, or a photograph with a depth file, which is a disparity unless it is an EXR
-// file (io/photograph.h); `-` is standard input. Throws Error if most of its depths are invalid (see sanitize()),
+// Opens any deep EXR, a flat one with depth, or a photograph with a depth, which is a disparity unless it is an EXR file
+// (io/photograph.h); `-` is standard input. Throws Error if most of its depths are invalid (see sanitize()),
 // UsageError if its depth is the length of the ray and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 

@@ -9,6 +9,8 @@
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
+#include "io/files/text_file.h"
+#include "io/own_depth.h"
 #include "lens/photograph.h"
 #include "view/fitted_depth.h"
 
@@ -21,6 +23,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace sparselens {
@@ -75,15 +78,19 @@ void turn_depth(FlatFile &depth, const std::string &name, Photograph &picture) {
     picture.warnings.push_back("is turned by its Exif, and " + name + " is not: the depth is turned, too");
 }
 
-void require_grey(const Image &image, const std::string &name) {
+bool is_grey(const Image &image) {
     constexpr float rounding = 0.03f; // of JPEG
     const auto r = image.plane(0);
     for (std::size_t k = 1; k < image.channels.size(); ++k)
         for (std::size_t i = 0; i < r.size(); ++i)
-            if (std::abs(image.plane(k)[i] - r[i]) > rounding)
-                throw Error(name +
-                            ": has colours, and depth must be grey: let the estimator write it without a "
-                            "colour map, white near (`depth_file`)");
+            if (std::abs(image.plane(k)[i] - r[i]) > rounding) return false;
+    return true;
+}
+
+void require_grey(const Image &image, const std::string &name) {
+    if (!is_grey(image))
+        throw Error(name + ": has colours, and depth must be grey: let the estimator write it without a "
+                           "colour map, white near (`depth_file`)");
 }
 
 void require_shape(const Windows &depth, const std::string &name, const Windows &picture,
@@ -147,6 +154,35 @@ void put_in_frame(FlatFile &depth, const PictureChoice &choice, Photograph &pict
     depth.image = fitted(depth.image, find_channel(depth.image.channels, channel), picture.image);
 }
 
+// The depth in the photograph itself, as a disparity, turned as the picture is.
+FlatFile own_depth(const std::string &path, const Photograph &picture) try {
+    const std::string bytes = read_bytes(path);
+    const auto own = bytes.starts_with("\xff\xd8") ? own_depth_of_jpeg(bytes) : std::nullopt;
+    if (!own)
+        throw UsageError(path +
+                         ": is a picture without depth: give its depth by `depth_file` (grey, white near), "
+                         "as programs such as Depth Anything estimate it");
+    const MemoryFile file(own->picture);
+    Photograph depth = flat_file(read_shown_picture(file.path(), true));
+    if (!is_grey(depth.image)) throw Error("it has colours");
+    depth.image.channels.resize(1);
+    depth.image = turned(depth.image, depth.orientation == 1 ? picture.orientation : 1);
+    make_disparities(*own, depth.image.plane(0));
+    const Windows &from = depth.image.windows, &to = picture.image.windows;
+    if (!alike(from, to))
+        throw Error(fmt::format("it has {}x{} pixels, another shape than the picture with {}x{}",
+                                from.display_width(), from.display_height(), to.display_width(),
+                                to.display_height()));
+    return depth;
+} catch (const UsageError &) {
+    throw;
+} catch (const std::runtime_error &error) {
+    const std::string why = error.what();
+    const std::size_t name = why.starts_with("/proc/") ? why.find(": ") + 2 : 0;
+    throw Error(fmt::format("{}: its own depth cannot be used: {}; give another one by `depth_file`", path,
+                            why.substr(name)));
+}
+
 } // namespace
 
 bool is_photograph(const std::string &path, const PictureChoice &choice) {
@@ -154,17 +190,17 @@ bool is_photograph(const std::string &path, const PictureChoice &choice) {
 }
 
 LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
-    if (choice.depth_file.empty())
-        throw UsageError(path +
-                         ": is a picture without depth: give its depth by `depth_file` (grey, white near)");
     PictureChoice colours = choice;
     colours.depth_file.clear();
     Photograph picture = has_shown_ending(path) ? flat_file(read_shown_picture(path))
                                                 : Photograph{read_flat_exr(path, colours)};
-    const std::string &name = choice.depth_file;
+    const bool own = choice.depth_file.empty();
+    const std::string &name = own ? path : choice.depth_file;
     const bool shown = has_shown_ending(name);
-    FlatFile depth = shown ? flat_file(read_shown_picture(name, true)) : read_depth_file(choice);
-    if (shown) require_grey(depth.image, name), turn_depth(depth, name, picture);
+    FlatFile depth = own     ? own_depth(path, picture)
+                     : shown ? flat_file(read_shown_picture(name, true))
+                             : read_depth_file(choice);
+    if (shown && !own) require_grey(depth.image, name), turn_depth(depth, name, picture);
     const PictureChoice of_depth = shown ? PictureChoice{.depth_file = name} : choice;
     put_in_frame(depth, of_depth, picture, display_name(path));
     if (shown) depth.image = extended(depth.image, picture.image.windows.data);

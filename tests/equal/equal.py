@@ -20,6 +20,7 @@ import threading
 
 import numpy
 
+import own_depth
 import scene
 from pictures import SKY, Photo, Picture, exr, is_depth, pfm, png, read_exr, tiff
 
@@ -41,7 +42,7 @@ class Inputs:
     name: str = "{}"
     through: str = "files"  # or stdin, fifo, frames
     picture: callable = exr  # picture(path, Picture)
-    photo: callable = lambda photo: (png, ".png")  # how a Photo is written: write(path, Photo), and the ending
+    photo: callable = lambda photo: (png, ".png") if photo.own is None else (own_jpeg("gdepth"), ".jpg")  # how a Photo is written: write(path, Photo), and the ending
 
     def but(self, **fields):
         return dataclasses.replace(self, **fields)
@@ -120,6 +121,12 @@ def coarse_photos():
     return {**files, "depth": [Photo(files["depth"][0].values[::2, ::2])]}
 
 
+def own_photos():
+    """The same with the depth in the photograph itself."""
+    files = photos()
+    return {"in": [Photo(files["in"][0].values, files["depth"][0].values)]}
+
+
 def linear(photo):
     """The same photograph as light."""
     v = photo.values / 255
@@ -166,6 +173,7 @@ DOORS = {
     "gather-selective": Door(lambda: {"in": [made_of("warp")]}, tool("dof-gather", more=(*FLOAT, "--method", "selective")), kind="deep"),
     "gather-photo": Door(photos, tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
     "gather-photo-coarse": Door(coarse_photos, tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
+    "gather-photo-own": Door(own_photos, tool("dof-gather", lambda f: [*f["in"], *PHOTO[:-1]], FLOAT, lens=False), kind="photo"),
     "gather-photo-exr": Door(lambda: {"in": [linear(photos()["in"][0])], "depth": photos()["depth"]},
                              tool("dof-gather", lambda f: [*f["in"], *PHOTO, *f["depth"]], FLOAT, lens=False), kind="photo"),
     "gather-depth-file": Door(lambda: {"in": [scene.view().only("RGBA")], "depth": [scene.view().only("Z")]},
@@ -291,7 +299,8 @@ class Change:
 
 
 NEEDS = {"an EXR file": lambda p: isinstance(p, Picture), "a flat depth": lambda p: isinstance(p, Picture) and p.counts is None and "Z" in p.channels,
-         "a photograph": lambda p: isinstance(p, Photo), "a file": lambda p: True, "an id": lambda p: isinstance(p, Picture) and "IndexOB.X" in p.channels,
+         "a photograph": lambda p: isinstance(p, Photo) and p.own is None,
+         "a depth of its own": lambda p: isinstance(p, Photo) and p.own is not None, "a file": lambda p: True, "an id": lambda p: isinstance(p, Picture) and "IndexOB.X" in p.channels,
          "a depth": lambda p: isinstance(p, Picture) and any(map(is_depth, p.channels))}
 
 
@@ -461,6 +470,28 @@ def jpeg(path, photo, orientation):
     subprocess.run(["oiiotool", path.with_suffix(".png"), "--orientation", str(orientation), "--attrib", "jpeg:subsampling", "4:4:4", "--compression", "jpeg:100", "-o", path], check=True)
 
 
+def own_jpeg(kind, format="RangeInverse"):
+    """A writer of a JPEG that has its depth in the way of that kind (own_depth.py)."""
+    def write(path, photo, orientation=1):
+        jpeg(path, photo, orientation)
+        near, far, disparity, more = own_depth.NEAR, own_depth.FAR, photo.own / 255, []
+        if format == "RangeLinear":
+            z = 1 / (1 / far + disparity * (1 / near - 1 / far))
+            disparity, more = 1 - (z - near) / (far - near), [format]
+        stored = Photo((65535 * (disparity if kind == "apple" else 1 - disparity)).round().astype("u2")).stored(orientation)
+        depth = path.with_suffix(".depth" + (".jpg" if kind == "apple" else ".png"))
+        if kind == "apple":
+            jpeg(depth, Photo((stored // 257).astype("u1")), 1)
+        else:
+            png(depth, Photo(stored))
+        path.write_bytes(own_depth.KINDS[kind](path.read_bytes(), depth.read_bytes(), *more))
+    return write
+
+
+def own_as(kind, *format, **form):
+    return photo_as(own_jpeg(kind, *format), ".jpg", **form)
+
+
 def wide(photo):
     return Photo(photo.values.astype("u2") * 257)
 
@@ -554,6 +585,10 @@ CHANGES = {
     **{f"exif-{k}": Change(photo_as(png, ".png", orientation=k), needs="a photograph") for k in range(2, 9)},
     "exif-6-jpeg": Change(photo_as(jpeg, ".jpg", orientation=6), bound=0.05, needs="a photograph"),
     "exif-6-tiff": Change(photo_as(tiff, ".tif", orientation=6), needs="a photograph"),
+    **{f"own-{kind}": Change(own_as(kind), needs="a depth of its own") for kind in ("elements", "dynamic")},
+    "own-apple": Change(own_as("apple"), bound=0.01, needs="a depth of its own"),
+    "own-linear": Change(own_as("dynamic", "RangeLinear"), bound=0.001, needs="a depth of its own"),
+    **{f"own-exif-{k}": Change(own_as("gdepth", orientation=k), bound=0.05, needs="a depth of its own") for k in range(2, 9)},
     "control": Change(pictures(brighter)),
 }
 NEVER = {
@@ -570,7 +605,7 @@ NEVER = {
     "mirrored": {"gather-photo-exr": "its depth is no EXR", "finish": "blocks of 32 pixels from the left tell how certain renders are"},
     "transposed": {"gather-photo-exr": "its depth is no EXR"},
     "light": {"finish-ask": "rays are asked for what a display shows"},
-    "stdin": {"gather-photo": "says that it needs a file", "gather-photo-coarse": "the same", "python": "reads no stream", "pipe": "its requests come there"},
+    "stdin": {"gather-photo": "says that it needs a file", "gather-photo-coarse": "the same", "gather-photo-own": "the same", "python": "reads no stream", "pipe": "its requests come there"},
     "fifo": {"pipe": "refuses what is no file", "photo": "says that it needs a file"},
 }
 LENS_DOORS = "gather-view", "gather-deep", "gather-ldi", "gather-depth-file", "gather-photo-exr", "pipe", "python", "match"

@@ -216,8 +216,9 @@ def read_exr(path):
 
 @dataclasses.dataclass
 class Photo:
-    """A picture of integers, (height, width) or (height, width, 3), or of 32-bit floats."""
+    """A picture of integers, (height, width) or (height, width, 3), or of 32-bit floats; `own`: the depth in its file."""
     values: numpy.ndarray
+    own: numpy.ndarray = None
 
     def stored(self, orientation):
         """The pixels as a camera stores them that was turned like this (Exif)."""

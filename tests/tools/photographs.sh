@@ -96,6 +96,7 @@ wrong 2 'is a photograph, .*\(--blur 2%\)' --depth-file depth8.png --fstop 2 "${
 for blur in 2%% % -2% 1:2%,3:20; do
     wrong 2 "--blur: must be a number .*, or a share of the picture's width \(e.g. 2%\), not '$blur'" --depth-file depth8.png --blur "$blur"
 done
+wrong 2 '--depth: is for a --depth-file' --depth inverse
 for lens in --fstop --lens-radius --focal-length --sensor-width; do
     wrong 2 "--blur excludes $lens|$lens excludes --blur" --depth-file depth8.png --blur 6 "$lens" 2 "${sharp[@]}"
 done
@@ -116,6 +117,37 @@ for words in "--blur 2%" "--blur 6.4 --quality final"; do
 done
 exits 0 "$bin/dof-gather" photo.jpg --depth-file depth8.png --quality normal --focus-pixel "$chosen" -o normal.png
 cmp -s usual.png normal.png && fail "--quality normal is final quality"
+
+# A depth in the photograph, as each phone writes it, is that of a file. One that is given comes first.
+oiiotool depth16.png --invert -o black.png
+oiiotool depth8.png --compression jpeg:100 -o depth.jpg
+own() { python3 -B "$source_dir/tests/equal/own_depth.py" "$@" || fail "own_depth.py $*"; }
+for kind in gdepth elements dynamic apple; do
+    depth=black.png && [ $kind = apple ] && depth=depth.jpg
+    own $kind photo.jpg $depth own-$kind.jpg
+    exits 0 "$bin/dof-gather" own-$kind.jpg -o own.png
+    [ "$(wc -l <stderr)" = 1 ] || fail "$kind: $(cat stderr)"
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file "${depth/black.png/depth16.png}" -o same.png
+    cmp -s own.png same.png || fail "$kind: another picture than with the same depth in a file"
+    exits 0 "$bin/dof-gather" own-$kind.jpg --depth-file inverted.png --blur 6 "${sharp[@]}" -o own.exr
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file inverted.png --blur 6 "${sharp[@]}" -o same.exr
+    picture same own.exr same.exr R,G,B 0 || fail "$kind: --depth-file does not come first"
+done
+broken() { # broken SAYS DEPTH: one line
+    own dynamic photo.jpg "$2" broken.jpg
+    fails_saying 1 "broken.jpg: its own depth cannot be used: $1; give another one by --depth-file" "$bin/dof-gather" broken.jpg -o x.png
+    [ "$(wc -l <stderr)" = 1 ] || fail "$2: $(cat stderr)"
+}
+oiiotool black.png --resize 160x180 -o narrow.png
+head -c 3000 black.png >cut.png
+python3 -c 'import struct, sys, zlib
+head = b"IHDR" + struct.pack(">2I5B", 60000, 60000, 8, 0, 0, 0, 0)
+sys.stdout.buffer.write(b"\x89PNG\r\n\x1a\n\0\0\0\r" + head + struct.pack(">I", zlib.crc32(head)) + b"\0\0\0\0IDAT" + bytes(8))' >huge.png
+broken 'it has 160x180 pixels, another shape than the picture with 320x180' narrow.png
+broken 'cannot read: .*' cut.png
+broken '.*memory.*' huge.png
+broken 'it has colours' photo.jpg
+broken 'it is neither a PNG nor a JPEG' depth.npy
 
 # Video: a depth that is estimated anew for each frame flickers, and the warning says by how many pixels of blur.
 for frame in 1 2 3; do cp photo.jpg shot.000$frame.jpg && cp depth16.png d.000$frame.png; done
@@ -143,5 +175,5 @@ with served(*sys.argv[3:]) as server:
     assert server.said("/facts")["blur"] == float(sys.argv[2]) and abs(cocs[1] / cocs[0] - 2) < 0.01, cocs' \
         "$source_dir/tests/viewing" "$@" || fail "dof-view: $(cat stderr)"
 }
-blurs 6.4 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png
+blurs 6.4 "$bin/dof-view" plate/own-gdepth.jpg
 blurs 5 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png --disparity --blur 5 --focus-pixel 160,120 || fail "--blur"
