@@ -112,7 +112,7 @@ Jpeg jpeg_at(Text file, std::size_t at) {
             continue;
         }
         const std::size_t size = std::max<std::size_t>(number_at(file, at + 2, 2), 2);
-        const Text segment = marker == 0xe1 ? file.substr(at).substr(0, size + 2).substr(4) : Text();
+        const Text segment = file.substr(std::min(at + 4, file.size()), marker == 0xe1 ? size - 2 : 0);
         if (segment.starts_with(first)) jpeg.xmp = segment.substr(first.size());
         if (segment.starts_with(more)) jpeg.more.push_back(segment.substr(more.size()));
         at += 2 + size;

@@ -173,6 +173,20 @@ TEST(OwnDepth, SaysWhyItCannotBeUsed) {
               "it is neither a PNG nor a JPEG");
 }
 
+// Wherever a file is cut off, it has no depth, another one, or one that cannot be used.
+TEST(OwnDepth, MayBeCutOffAnywhere) {
+    const std::string appended = xmp("<rdf:Description xmlns:p='http://ns.apple.com/pixeldatainfo/1.0/' "
+                                     "p:AuxiliaryImageType='disparity'/>");
+    for (const std::string &file :
+         {jpeg(first + head + tail), jpeg(dynamic("i:Semantic='Depth'" + length)) + "12345abc" + picture,
+          jpeg("") + jpeg(appended)})
+        for (std::size_t size = 2; size < file.size(); ++size) {
+            const std::string why =
+                what_of<std::runtime_error>([&] { own_depth_of_jpeg(file.substr(0, size)); });
+            EXPECT_FALSE(why.empty());
+        }
+}
+
 // The values are those of the formulas of the format.
 TEST(OwnDepth, BecomesADisparity) {
     constexpr double near = 0.5, far = 8;
