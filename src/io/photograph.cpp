@@ -296,7 +296,7 @@ std::optional<PixelInFocus> usual_focus(const Ldi &ldi) {
     const double reach = (disparity(0) - disparity(found.size() - 1)) / 16;
     std::size_t first = 0, most = 0; // of those at about one depth
     for (std::size_t i = 0, end = 0; i < found.size(); ++i) {
-        if (most >= found.size() / 10 && disparity(i) < disparity(first) - reach) break;
+        if (most >= found.size() / 5 && disparity(i) < disparity(first) - reach) break;
         while (end < found.size() && disparity(end) >= disparity(i) - reach) ++end;
         if (end - i > most) first = i, most = end - i;
     }

@@ -36,7 +36,7 @@ void repair_disparities(std::span<float> depths, const std::string &name, std::v
                         std::optional<DisparityRange> &range);
 
 // What is in focus unless the user says it: the nearest large thing near the middle. It is at the nearest depths within a
-// sixteenth of all disparities of the middle half, across and down, that a tenth of its pixels have, or else most pixels.
+// sixteenth of all disparities of the middle half, across and down, that a fifth of its pixels have, or else most pixels.
 // Empty if there is nothing.
 std::optional<PixelInFocus> usual_focus(const Ldi &ldi);
 
