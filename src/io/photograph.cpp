@@ -157,17 +157,19 @@ void put_in_frame(FlatFile &depth, const PictureChoice &choice, Photograph &pict
 // The depth in the photograph itself, as a disparity, turned as the picture is.
 FlatFile own_depth(const std::string &path, const Photograph &picture) try {
     const std::string bytes = read_bytes(path);
-    const auto own = bytes.starts_with("\xff\xd8") ? own_depth_of_jpeg(bytes) : std::nullopt;
-    if (!own)
+    const auto of_jpeg = bytes.starts_with("\xff\xd8") ? own_depth_of_jpeg(bytes) : std::nullopt;
+    const MemoryFile file(of_jpeg ? of_jpeg->picture : "");
+    ShownFile shown = of_jpeg ? read_shown_picture(file.path(), ShownPart::without_alpha)
+                              : read_shown_picture(path, ShownPart::own_depth);
+    if (shown.image.values.empty())
         throw UsageError(path +
                          ": is a picture without depth: give its depth by `depth_file` (grey, white near), "
                          "as programs such as Depth Anything estimate it");
-    const MemoryFile file(own->picture);
-    Photograph depth = flat_file(read_shown_picture(file.path(), true));
+    Photograph depth = flat_file(std::move(shown));
     if (!is_grey(depth.image)) throw Error("it has colours");
     depth.image.channels.resize(1);
     depth.image = turned(depth.image, depth.orientation == 1 ? picture.orientation : 1);
-    make_disparities(*own, depth.image.plane(0));
+    if (of_jpeg) make_disparities(*of_jpeg, depth.image.plane(0));
     const Windows &from = depth.image.windows, &to = picture.image.windows;
     if (!alike(from, to))
         throw Error(fmt::format("it has {}x{} pixels, another shape than the picture with {}x{}",
@@ -178,7 +180,7 @@ FlatFile own_depth(const std::string &path, const Photograph &picture) try {
     throw;
 } catch (const std::runtime_error &error) {
     const std::string why = error.what();
-    const std::size_t name = why.starts_with("/proc/") ? why.find(": ") + 2 : 0;
+    const std::size_t name = why.starts_with("/proc/") || why.starts_with(path) ? why.find(": ") + 2 : 0;
     throw Error(fmt::format("{}: its own depth cannot be used: {}; give another one by `depth_file`", path,
                             why.substr(name)));
 }
@@ -198,7 +200,7 @@ LdiFile read_photograph(const std::string &path, const PictureChoice &choice) {
     const std::string &name = own ? path : choice.depth_file;
     const bool shown = has_shown_ending(name);
     FlatFile depth = own     ? own_depth(path, picture)
-                     : shown ? flat_file(read_shown_picture(name, true))
+                     : shown ? flat_file(read_shown_picture(name, ShownPart::without_alpha))
                              : read_depth_file(choice);
     if (shown && !own) require_grey(depth.image, name), turn_depth(depth, name, picture);
     const PictureChoice of_depth = shown ? PictureChoice{.depth_file = name} : choice;

@@ -20,6 +20,7 @@ import threading
 
 import numpy
 
+import heif
 import own_depth
 import scene
 from pictures import SKY, Photo, Picture, exr, is_depth, pfm, png, read_exr, tiff
@@ -492,6 +493,13 @@ def own_as(kind, *format, **form):
     return photo_as(own_jpeg(kind, *format), ".jpg", **form)
 
 
+def own_heif(path, photo, turn=0):
+    def stored(values):
+        values = numpy.rot90(values if values.ndim == 3 else numpy.repeat(values[:, :, None], 3, 2), -turn)
+        return values.shape[1], values.shape[0], values.tobytes()
+    heif.write(path, stored(photo.values), stored(photo.own), turn)
+
+
 def wide(photo):
     return Photo(photo.values.astype("u2") * 257)
 
@@ -589,6 +597,8 @@ CHANGES = {
     "own-apple": Change(own_as("apple"), bound=0.01, needs="a depth of its own"),
     "own-linear": Change(own_as("dynamic", "RangeLinear"), bound=0.001, needs="a depth of its own"),
     **{f"own-exif-{k}": Change(own_as("gdepth", orientation=k), bound=0.05, needs="a depth of its own") for k in range(2, 9)},
+    **{f"own-avif-{turn}": Change(photo_as(own_heif, ".avif", turn=turn), bound=0.05, needs="a depth of its own")
+       for turn in (0, 1, 3) if heif.can_write(".avif")},
     "control": Change(pictures(brighter)),
 }
 NEVER = {
@@ -694,6 +704,8 @@ def main():
     global BENCH
     with tempfile.TemporaryDirectory() as scratch:
         BENCH = Bench(asked.bin.resolve(), (asked.keep or pathlib.Path(scratch)).resolve(), asked.keep)
+        if not heif.can_write(".avif"):
+            print("skipped: AVIF, which libheif cannot write here")
         cells = [(d, c) for d in DOORS for c in CHANGES if (d in SLOW) == asked.slow or door
                  if door in ("", d) and change in ("", c)]
         never = {(d, c): reason for d, c in cells for who, reason in NEVER.get(c, {}).items() if who in (d, DOORS[d].kind)}

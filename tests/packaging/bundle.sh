@@ -64,7 +64,7 @@ for of in theirs:"$bin" ours:"$made/bin"; do
     exits 0 "${of#*:}/dof-gather" photo.jpg --depth-file depth.png --blur 5 --focus-pixel 8,9 -o "${of%%:*}/photo.exr"
 done
 oiiotool theirs/photo.exr ours/photo.exr --fail 1e-3 --diff >log 2>&1 || fail "another picture of a photograph: $(cat log)"
-fails_saying 1 'photo.tif: cannot read: this archive reads PNG and JPEG: convert it' "$made/bin/dof-gather" photo.tif --depth-file depth.png --blur 5 --focus-pixel 8,9 -o x.exr
+fails_saying 1 'photo.tif: cannot read: this archive reads PNG, JPEG and HEIC: convert it' "$made/bin/dof-gather" photo.tif --depth-file depth.png --blur 5 --focus-pixel 8,9 -o x.exr
 
 # What does not fit replaces nothing.
 exits 0 cp ours/picture.png whole.png

@@ -133,6 +133,23 @@ for kind in gdepth elements dynamic apple; do
     exits 0 "$bin/dof-gather" photo.jpg --depth-file inverted.png --blur 6 "${sharp[@]}" -o same.exr
     picture same own.exr same.exr R,G,B 0 || fail "$kind: --depth-file does not come first"
 done
+oiiotool photo.jpg -o photo.ppm
+oiiotool depth8.png -o depth.pgm
+for ending in heic avif; do
+    if ! python3 -B "$source_dir/tests/equal/heif.py" own.$ending photo.ppm depth.pgm 2>stderr; then
+        grep -q 'encoder is missing' stderr || fail "heif.py: $(cat stderr)"
+        echo "skipped: $ending, which libheif cannot write here"
+        continue
+    fi
+    exits 0 "$bin/dof-gather" own.$ending -o own.png
+    [ "$(wc -l <stderr)" = 1 ] || fail "$ending: $(cat stderr)"
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file depth8.png -o same.png
+    within "$(psnr own.png same.png)" 45 0 "$ending: its own depth"
+    python3 -B "$source_dir/tests/equal/heif.py" plain.$ending photo.ppm
+    fails_saying 2 "plain.$ending: is a picture without depth" "$bin/dof-gather" plain.$ending -o x.png
+    head -c 20000 own.$ending >cut.$ending
+    fails_saying 1 "cut.$ending: cannot read: " "$bin/dof-gather" cut.$ending -o x.png
+done
 broken() { # broken SAYS DEPTH: one line
     own dynamic photo.jpg "$2" broken.jpg
     fails_saying 1 "broken.jpg: its own depth cannot be used: $1; give another one by --depth-file" "$bin/dof-gather" broken.jpg -o x.png

@@ -1,6 +1,6 @@
 #include "io/display/oiio_module.h"
 
-#include "io/display/png_jpeg.h"
+#include "io/display/heif.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -30,6 +30,7 @@ OiioModule::Support support(const char *extension) {
 }
 
 bool reads(const char *extension) {
+    if (heif::has_ending(extension)) return true;
     constexpr std::array<std::string_view, 4> no_pictures{"openexr", "FFmpeg movie", "null", "openvdb"};
     const auto file = OIIO::ImageInput::create(extension);
     return file && std::ranges::find(no_pictures, file->format_name()) == no_pictures.end();
@@ -140,7 +141,7 @@ void read_pixels(OIIO::ImageInput &file, bool multiplied, const PictureFile &to)
 const char *read(const char *path, OiioFile &file, float *values) {
     return failure_of([&] {
         read_into(file, values, [&](PictureFile &to) {
-            if (read_png_or_jpeg(path, to)) return;
+            if (heif::read(path, to) || to.before.own_depth || read_png_or_jpeg(path, to)) return;
             OIIO::ImageSpec as_stored;
             as_stored.attribute("oiio:UnassociatedAlpha", 1);
             const auto picture = OIIO::ImageInput::open(path, &as_stored);

@@ -40,6 +40,8 @@ struct OiioFile {
     int bits;   // 8 or 16; 32: floating-point numbers
     bool alpha; // whether there is a fourth channel
     OiioBytes profile, exif;
+    bool
+        own_depth; // asked: read the depth that the file has beside its colours; the width is 0 if it has none
 };
 
 struct OiioModule {

@@ -191,14 +191,16 @@ void settle_alpha(Image &image, bool without) {
 
 } // namespace
 
-ShownFile read_shown_picture(const std::string &path, bool without_alpha) {
+ShownFile read_shown_picture(const std::string &path, ShownPart part) {
     if (is_read_once(path)) throw Error(path + ": cannot read: not a regular file: store the picture in one");
     OiioFile said{};
     const auto read = [&](float *to) {
+        said.own_depth = part == ShownPart::own_depth;
         if (const char *failed = oiio_module().read(path.c_str(), said, to))
             throw Error(path + ": cannot read: " + failed);
     };
     read(nullptr);
+    if (said.width == 0) return {};
     // A flat picture of a few bytes may be large: 1.1 GB are no danger.
     constexpr std::uint64_t harmless = 1'000'000; // bytes of a file
     check_memory(path, (said.alpha ? 16.0 : 12.0) * said.width * said.height,
@@ -212,7 +214,7 @@ ShownFile read_shown_picture(const std::string &path, bool without_alpha) {
         return of.size > 0 ? std::string(static_cast<const char *>(of.bytes), of.size) : std::string();
     };
     file.extras = {said.bits, text_of(said.profile), text_of(said.exif)};
-    settle_alpha(file.image, without_alpha);
+    settle_alpha(file.image, part != ShownPart::picture);
     return file;
 }
 

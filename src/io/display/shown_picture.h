@@ -54,8 +54,10 @@ struct ShownFile {
 };
 
 // Reads such a file: R, G and B, as encoded there, and A if it is below 1 anywhere. The colours are multiplied by A,
-// unless `without_alpha` leaves it out. Throws Error, beginning with `path`.
-ShownFile read_shown_picture(const std::string &path, bool without_alpha = false);
+// unless `without_alpha` leaves it out. Or reads the depth that HEIC and AVIF have beside their colours, without A; its
+// image is empty if there is none. Throws Error, beginning with `path`.
+enum class ShownPart { picture, without_alpha, own_depth };
+ShownFile read_shown_picture(const std::string &path, ShownPart part = ShownPart::picture);
 
 // Turns a picture of one channel by that orientation, as its file would have been.
 Image turned(const Image &plane, int orientation);

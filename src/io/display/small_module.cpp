@@ -1,6 +1,6 @@
 // Writes PNG, and reads PNG and JPEG, by libpng and libjpeg alone: the module of io/display/oiio_module.h for archives,
 // where OpenImageIO would bring two hundred libraries (tools/bundle.sh). Its pixels equal those of the other module.
-#include "io/display/png_jpeg.h"
+#include "io/display/heif.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ OiioModule::Support support(const char *extension) {
 
 bool reads(const char *extension) {
     constexpr std::array<std::string_view, 3> endings{"png", "jpg", "jpeg"};
-    return std::ranges::find(endings, extension) != endings.end();
+    return std::ranges::find(endings, extension) != endings.end() || heif::has_ending(extension);
 }
 
 const char *write(const OiioPicture &picture) {
@@ -27,9 +27,9 @@ const char *write(const OiioPicture &picture) {
 const char *read(const char *path, OiioFile &file, float *values) {
     return failure_of([&] {
         read_into(file, values, [&](PictureFile &to) {
-            if (!read_png_or_jpeg(path, to))
+            if (!heif::read(path, to) && !to.before.own_depth && !read_png_or_jpeg(path, to))
                 throw std::runtime_error(
-                    "this archive reads PNG and JPEG: convert it (oiiotool IN -o OUT.png)");
+                    "this archive reads PNG, JPEG and HEIC: convert it (oiiotool IN -o OUT.png)");
         });
     });
 }
