@@ -1,9 +1,10 @@
 #!/bin/bash
-# Makes an archive of the tools for any x86-64 Linux: unpack it anywhere, and run what is in its bin/.
+# Makes an archive of the tools for any Linux of this machine's kind, x86-64 or 64-bit ARM: unpack it anywhere, and run
+# what is in its bin/.
 #
 #   tools/bundle.sh BUILD [FOLDER [unpacked]]     BUILD: a finished build folder; FOLDER: where the archive goes (here)
 #
-# Writes sparselens-VERSION-linux-x86_64.tar.xz, or with `unpacked` the folder in it. It holds the
+# Writes sparselens-VERSION-linux-MACHINE.tar.xz, or with `unpacked` the folder in it. It holds the
 # tools, dof-trace of the laboratory, all libraries that they need with their loader, the Blender add-on as a zip, and
 # the licences of all of it. The tools start through the loader in the archive, so the system's C library may be older
 # or newer. In the place of OpenImageIO there is a module that writes PNG, and reads PNG and JPEG
@@ -23,12 +24,17 @@ fail() {
 case $#:${3-unpacked} in [1-3]:unpacked) ;; *) fail "usage: tools/bundle.sh BUILD [FOLDER [unpacked]]" ;; esac
 build=$(cd "$1" 2>/dev/null && pwd) && [ -s "$build/CMakeCache.txt" ] || fail "$1 is not a build folder: cmake -S . -B $1 && cmake --build $1"
 out=$(cd "${2:-.}" && pwd) || fail "${2:-.} is not a folder"
-[ "$(uname -m)" = x86_64 ] || fail "the archive is of x86-64"
+machine=$(uname -m)
+case $machine in
+x86_64) kind=x86-64 loader_name=ld-linux-x86-64.so.2 ;;
+aarch64) kind='64-bit ARM' loader_name=ld-linux-aarch64.so.1 ;;
+*) fail "the archive is of x86-64 or 64-bit ARM, not of $machine" ;;
+esac
 png=$build/bundle/sparselens-small.so
 [ -s "$png" ] || fail "$build has no sparselens-small.so: tools/install-deps.sh bundle, and build again"
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 version=$(sed -nE 's/^project\(sparselens VERSION ([0-9.]+) .*/\1/p' "$here/CMakeLists.txt")
-name=sparselens-$version-linux-x86_64
+name=sparselens-$version-linux-$machine
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 root=$work/$name
@@ -54,16 +60,16 @@ needed() {
 }
 mapfile -t libraries < <(needed | sort -u)
 for library in "${libraries[@]}"; do cp -L "$library" "$root/lib/${library##*/}"; done
-loader=$root/lib/ld-linux-x86-64.so.2
+loader=$root/lib/$loader_name
 [ -s "$loader" ] || fail "the loader is not among: ${libraries[*]}"
 
 # Each tool starts by a script of its name.
-cat >"$work/start" <<'END'
+sed "s/LOADER/$loader_name/" >"$work/start" <<'END'
 #!/bin/sh
 # Starts the program of this name in libexec by the loader and the libraries of this folder, whatever the PATH is.
 self=$(command -p readlink -f "$0")
 root=${self%/bin/*}
-exec "$root/lib/ld-linux-x86-64.so.2" --argv0 "$self" --library-path "$root/lib" "$root/libexec/${self##*/}" "$@"
+exec "$root/lib/LOADER" --argv0 "$self" --library-path "$root/lib" "$root/libexec/${self##*/}" "$@"
 END
 for program in "$root"/libexec/*; do install -m 755 "$work/start" "$root/bin/${program##*/}"; done
 
@@ -82,7 +88,7 @@ package_of() {
 {
     for library in "${libraries[@]}"; do package_of "$library"; done
     dpkg-query -W -f='${Package}\n' libcli11-dev nlohmann-json3-dev libvulkan-dev 2>/dev/null # headers
-} | sed 's/:amd64$//' | sort -u >"$work/packages"
+} | sed 's/:[a-z0-9]*$//' | sort -u >"$work/packages"
 cp "$here/LICENSE" "$root/licences/sparselens.txt"
 cp -rL /usr/share/common-licenses "$root/licences/common-licenses"
 while read -r package; do
@@ -98,7 +104,7 @@ done <"$work/packages"
 # The add-on as Blender installs it.
 (cd "$root/share/sparselens/blender" && cmake -E tar cf sparselens_blender.zip --format=zip sparselens_blender)
 cat >"$root/README.txt" <<END
-sparselens $version for Linux (x86-64): depth of field from a few pinhole renders.
+sparselens $version for Linux ($kind): depth of field from a few pinhole renders.
 
 The tools are in bin/. Unpack the folder anywhere, and call them by their path or put bin/ on the PATH:
 

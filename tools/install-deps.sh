@@ -1,13 +1,14 @@
 #!/bin/sh
 # Installs the Debian packages that a job needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: blender, build, bundle, ci, demo, gpu, lint, report, test
+#   tools/install-deps.sh SET...      sets: arm, blender, build, bundle, ci, demo, gpu, lint, report, test
 #
 # Needs only a Debian base system (12 or later), and root or sudo if something is missing. Prints one line if everything
 # is installed; otherwise exits with 1 and one line that says why a package is not available.
 set -eu
 
 release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-release}" 2>/dev/null || true)
+arm='debootstrap g++-aarch64-linux-gnu qemu-user-static'
 blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
        libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
@@ -39,6 +40,7 @@ fail() {
 packages_of() {
     for set_name; do
         case $set_name in
+        arm) echo $arm ;;
         blender) echo $blender ;;
         build) echo $build ;;
         bundle) echo $bundle ;;
@@ -51,7 +53,7 @@ packages_of() {
             ;;
         report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (blender, build, bundle, ci, demo, gpu, lint, report, test)" ;;
+        *) fail "unknown set '$set_name' (arm, blender, build, bundle, ci, demo, gpu, lint, report, test)" ;;
         esac
     done
 }
@@ -74,7 +76,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: blender, build, bundle, ci, demo, gpu, lint, report, test"
+[ $# -gt 0 ] || fail "name at least one set: arm, blender, build, bundle, ci, demo, gpu, lint, report, test"
 wanted=$(packages_of "$@") || exit 1
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

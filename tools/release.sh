@@ -1,9 +1,10 @@
 #!/bin/bash
 # Makes everything that a user downloads, tries it, and lists it with checksums and a page that says which file is for whom.
 #
-#   tools/release.sh [FOLDER [BUILD]]     FOLDER: where the files go (release); BUILD: the build folder (build-release)
+#   tools/release.sh [FOLDER [BUILD]] [--all]     FOLDER: where the files go (release); BUILD: the build folder
+#                                                 (build-release); --all: also for 64-bit ARM (tools/arm.sh)
 #
-# An hour on two cores. As root, on Debian 12; needs the net for Debian's packages and PyPI's. tests/packaging/release.sh
+# An hour on two cores, two with --all. As root, on Debian 12; needs the net for Debian's packages and PyPI's. tests/packaging/release.sh
 # tries the files in bare roots of Debian.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -11,7 +12,9 @@ fail() {
     echo "release.sh: $*" >&2
     exit 1
 }
-[ $# -le 2 ] || fail "usage: tools/release.sh [FOLDER [BUILD]]"
+all=false
+[ "${*: -1}" != --all ] || { all=true && set -- "${@:1:$#-1}"; }
+[ $# -le 2 ] || fail "usage: tools/release.sh [FOLDER [BUILD]] [--all]"
 mkdir -p "${1:-release}"
 out=$(cd "${1:-release}" && pwd) build=${2:-$here/build-release} work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -71,17 +74,25 @@ logged "$work/python/bin/wheel" pack --dest-dir "$work" "$root"
 logged "$work/python/bin/wheel" tags --remove --platform-tag "manylinux_2_${libc#GLIBC_2.}_x86_64" "$work"/*.whl
 cp "$work"/*.whl "$out/"
 
+if $all; then
+    "$here/tools/arm.sh" "$out"
+    bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz"
+fi
+
 say "the page"
 row() { # FOR WHOM|WHAT TO DO|PATTERN
     IFS='|' read -r who what pattern <<<"$1"
     for file in "$out"/$pattern; do
+        [ -e "$file" ] || continue
         echo "<tr><td>$who<td><a href=\"${file##*/}\">${file##*/}</a>, $(($(stat -c %s "$file") / 1000000 + 1)) MB<td>$what"
     done
 }
 {
-    echo "<!doctype html><meta charset=utf-8><title>sparselens $version</title><h1>sparselens $version for Linux (x86-64)</h1>"
+    echo "<!doctype html><meta charset=utf-8><title>sparselens $version</title><h1>sparselens $version for Linux</h1>"
     echo "<p>Depth of field for rendered pictures and photographs. Checksums: <a href=SHA256SUMS>SHA256SUMS</a>.<table>"
-    row "A command line, any Linux|<code>tar xf FILE; export PATH=\$PWD/$name-$platform/bin:\$PATH; dof-gather --help</code>|$name-$platform.tar.xz"
+    for machine in "x86_64|x86-64" "aarch64|64-bit ARM"; do
+        row "A command line, any Linux on ${machine#*|}|<code>tar xf FILE; export PATH=\$PWD/$name-linux-${machine%|*}/bin:\$PATH; dof-gather --help</code>|$name-linux-${machine%|*}.tar.xz"
+    done
     row "Blender 3.4 to 5.2|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*.zip"
     row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*.whl"
     row "Hosts of OpenFX|Unpack into <code>/usr/OFX/Plugins</code>, and the first file; <code>SPARSELENS_BIN</code> names its bin.|*-openfx-*"
