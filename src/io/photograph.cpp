@@ -294,17 +294,9 @@ std::optional<PixelInFocus> usual_focus(const Ldi &ldi) {
             if (const float z = front_depth(ldi, {x, y}); z > 0) found.push_back({{x, y}, double(z)});
     if (found.empty()) return {};
     std::ranges::stable_sort(found, {}, &PixelInFocus::depth);
-    const auto disparity = [&](std::size_t i) { return disparity_of_depth(found[i].depth); };
-    const double reach = (disparity(0) - disparity(found.size() - 1)) / 16;
-    std::size_t first = 0, most = 0; // of those at about one depth
-    for (std::size_t i = 0, end = 0; i < found.size(); ++i) {
-        if (most >= found.size() / 5 && disparity(i) < disparity(first) - reach) break;
-        while (end < found.size() && disparity(end) >= disparity(i) - reach) ++end;
-        if (end - i > most) first = i, most = end - i;
-    }
     const Imath::V2i centre = frame.min + frame.size() / 2;
-    const auto their_middle = std::span(found).subspan(first + most / 4, most / 2 + 1);
-    return *std::ranges::min_element(their_middle, {},
+    const auto around_median = std::span(found).subspan(found.size() / 8, found.size() / 12 + 1);
+    return *std::ranges::min_element(around_median, {},
                                      [&](const PixelInFocus &one) { return (one.pixel - centre).length2(); });
 }
 

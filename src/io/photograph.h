@@ -35,9 +35,8 @@ Imf::Header without_extras(const Imf::Header &header);
 void repair_disparities(std::span<float> depths, const std::string &name, std::vector<std::string> &warnings,
                         std::optional<DisparityRange> &range);
 
-// What is in focus unless the user says it: the nearest large thing near the middle. It is at the nearest depths within a
-// sixteenth of all disparities of the middle half, across and down, that a fifth of its pixels have, or else most pixels.
-// Empty if there is nothing.
+// What is in focus unless the user says it: the nearest large thing near the middle. Its depth is about the median of the
+// nearest third of the middle half, across and down. Empty if there is nothing.
 std::optional<PixelInFocus> usual_focus(const Ldi &ldi);
 
 // In place of the unknown one; only tilts and the like depend on it.
