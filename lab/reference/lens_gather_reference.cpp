@@ -185,6 +185,17 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
     return values;
 }
 
+Rounding rounding_of(const Scene &scene, long double widest, long double extent) {
+    Rounding rounding{extent, 128, 1};
+    while (rounding.lens_unit < widest * 0.999L) rounding.lens_unit *= 2;
+    long double coc = 0;
+    for (const auto *some : {&scene.samples, &scene.fillers, &scene.solids})
+        for (const Placed &s : *some) coc = std::max({coc, std::abs(s.coc), std::abs(s.image_coc)});
+    while ((2 * coc * rounding.lens_unit + 38) * rounding.unit > 32767 && rounding.unit > 4)
+        rounding.unit /= 2;
+    return rounding;
+}
+
 } // namespace
 
 long double ReferenceValue::off(float other) const {
@@ -210,10 +221,11 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
     long double widest = 0;                    // largest coordinate of them
     for (const LensSample &point : points)
         widest = std::max({widest, (long double)std::abs(point.x), (long double)std::abs(point.y)});
+    const Rounding rounding =
+        rounding_of(scene, widest, (long double)std::max(ldi.windows.width(), ldi.windows.height()));
     parallel_for(pixels, [&](std::size_t i) {
         const Imath::V2i at = picture.windows.pixel(i);
-        const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
-                          holdout};
+        const Pixel pixel{at.x, at.y, rounding, holdout};
         const auto values = gather(ldi, near(scene, pixel, widest), by, pixel, unsure[i]);
         for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
     });

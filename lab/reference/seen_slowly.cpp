@@ -108,9 +108,24 @@ std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span
     return placed;
 }
 
-// The margin of one coordinate of a sample's square.
-Margin margin(long double sample, long double displaced, long double looked_at, long double extent) {
-    return {0.5L - std::abs(sample + displaced - looked_at), 5e-7L * extent + 1e-6L * std::abs(displaced)};
+// The margin of one coordinate of a sample's square, from the pixel that a lens point looks at. `looks`: from where in
+// the pixel.
+Margin margin(long double sample, long double coc, long double lens, long double looks, int pixel,
+              const Rounding &by) {
+    long double unsure = 0; // units by which rounding in float may move the sample
+    const auto whole = [&](long double exact, long double off) {
+        const long double value = std::floor(exact + 0.5L);
+        if (std::abs(std::abs(exact - value) - 0.5L) <= off) ++unsure;
+        return value;
+    };
+    const long double coc_units = coc * by.lens_unit * by.unit,
+                      lens_units =
+                          std::clamp(std::floor(lens / by.lens_unit * 32768 + 0.5L), -32767.0L, 32767.0L),
+                      moved = std::floor(whole(coc_units, 1e-6L * std::abs(coc_units)) * lens_units / 32768 +
+                                         0.5L);
+    const long double seen = whole(sample * by.unit, 5e-7L * by.extent * by.unit) + moved +
+                             std::floor(looks * by.unit + 0.5L) - pixel * by.unit;
+    return {(by.unit / 2 - std::abs(seen + 0.5L - by.unit / 2)) / by.unit, (unsure + 0.25L) / by.unit};
 }
 
 long double passes(const Placed &s, const Pixel &pixel) {
@@ -119,10 +134,9 @@ long double passes(const Placed &s, const Pixel &pixel) {
 }
 
 // Whether the lens point sees the sample in its unit square, and whether rounding matters.
-Cover covers(const Placed &s, const LensSample &point, const Imath::Vec2<long double> &at,
-             long double extent) {
-    const Margin across = margin(s.x, s.coc * (long double)point.x, at.x, extent);
-    const Margin down = margin(s.y, s.coc * (long double)point.y, at.y, extent);
+Cover covers(const Placed &s, const LensSample &point, const Pixel &pixel) {
+    const Margin across = margin(s.x, s.coc, point.x, point.pixel_x, pixel.x, pixel.rounding);
+    const Margin down = margin(s.y, s.coc, point.y, point.pixel_y, pixel.y, pixel.rounding);
     if (across.outside() || down.outside()) return {};
     return {true, across.inside > 0 && down.inside > 0, across.sure() && down.sure()};
 }
@@ -134,10 +148,10 @@ void meet(std::span<const Placed> samples, std::span<const std::array<std::size_
     const Imath::Vec2<long double> at(pixel.x + 0.5L - (long double)point.pixel_x,
                                       pixel.y + 0.5L - (long double)point.pixel_y);
     std::vector<Cover> by_facets;
-    cover_by_facets(samples, facets, point, at, pixel.extent, by_facets);
+    cover_by_facets(samples, facets, point, at, pixel.rounding.extent, by_facets);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Placed &s = samples[i];
-        Cover cover = covers(s, point, at, pixel.extent);
+        Cover cover = covers(s, point, pixel);
         if (!by_facets.empty()) cover.add(by_facets[i]);
         if (!cover.possible) continue;
         met.push_back({&s, cover.seen, cover.sure, passes(s, pixel)});
@@ -198,8 +212,8 @@ using Around = std::array<Choice, 8>;
 Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     const auto front_beside = [&](int dx, int dy) {
         std::vector<Met> met;
-        meet(scene.samples, scene.facets, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
-        add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
+        meet(scene.samples, scene.facets, point, {pixel.x + dx, pixel.y + dy, pixel.rounding, nullptr}, met);
+        add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.rounding, nullptr}, met);
         return front_of(met);
     };
     return {front_beside(-1, 0), front_beside(1, 0),  front_beside(0, -1),  front_beside(0, 1),
@@ -249,14 +263,12 @@ Choice screen_between(const Around &around) {
 
 // The nearest image in a pixel.
 Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel, int dx, int dy) {
-    const long double x = pixel.x + dx + 0.5L - (long double)point.pixel_x,
-                      y = pixel.y + dy + 0.5L - (long double)point.pixel_y;
     Choice nearest;
     std::vector<const Placed *> sure;
     for (const Placed &s : scene.samples) {
         if (!s.is_image()) continue;
-        const Margin across = margin(s.x, s.image_coc * (long double)point.x, x, pixel.extent),
-                     down = margin(s.y, s.image_coc * (long double)point.y, y, pixel.extent);
+        const Margin across = margin(s.x, s.image_coc, point.x, point.pixel_x, pixel.x + dx, pixel.rounding),
+                     down = margin(s.y, s.image_coc, point.y, point.pixel_y, pixel.y + dy, pixel.rounding);
         if (across.outside() || down.outside()) continue;
         nearest.can_be.push_back(&s);
         if (across.inside > across.unclear && down.inside > down.unclear) sure.push_back(&s);

@@ -38,9 +38,16 @@ struct Scene {
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers);
 
+// The whole numbers in which the gather counts where samples are seen (lens_gather_reference.h).
+struct Rounding {
+    long double extent; // the largest coordinate in use; a float resolves positions to about 1e-7 of it
+    long double unit,
+        lens_unit; // units in a pixel; CoCs are multiplied by the other, and lens points divided
+};
+
 struct Pixel {
     int x, y;
-    long double extent; // the largest coordinate in use; a float resolves positions to about 1e-7 of it
+    Rounding rounding;
     const Holdout *holdout;
 };
 

@@ -88,7 +88,7 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
         optics.bend(*some);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
-                                {samples.x, samples.y, samples.hiding_coc(), samples.upper, samples.source});
+                                {samples.x, samples.y, samples.hiding_coc(), samples.source});
 }
 
 // The share of each sample's light that highlights leave; empty: all of it.

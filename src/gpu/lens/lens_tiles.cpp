@@ -15,7 +15,7 @@ namespace {
 // Returns the number of samples or facets of all blocks, which are stored one block after the other.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
-// Places samples from `first` on. `hiding`: for the upper halves of keys.
+// Places samples from `first` on.
 void place(SceneArrays &arrays, const BlockedSamples &from, std::size_t first, std::uint32_t hiding) {
     parallel_ranges(count_of(from), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -44,8 +44,7 @@ void colour(SceneArrays &arrays, const BlockedSamples &from, const SampleColours
 
 void place_facets(SceneArrays &arrays, const PlacedFacets &from) {
     arrays.facets.resize(3 * count_of(from));
-    for (std::size_t i = 0; i < arrays.facets.size(); ++i)
-        arrays.facets[i] = kernels::sample_of(from.key[i % 3][i / 3]);
+    for (std::size_t i = 0; i < arrays.facets.size(); ++i) arrays.facets[i] = from.sample[i % 3][i / 3];
     for (const FacetBlock &b : from.blocks)
         arrays.blocks.push_back({b.begin, b.end, b.x_min, b.x_max, b.y_min, b.y_max, b.coc_min, b.coc_max});
 }
@@ -121,8 +120,8 @@ std::uint32_t threads_on(const Device &device) { return device.info().kind == Ki
 // Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little.
 std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
     const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
-                      of_point = cells * sizeof(std::uint64_t) + lens_kernel::chunk * sizeof(std::uint32_t),
-                      others = threads_on(device) * 3 * sizeof(std::uint32_t) + 64;
+                      of_point = cells * sizeof(std::uint32_t) + lens_kernel::chunk * sizeof(std::uint32_t),
+                      others = threads_on(device) * 4 * sizeof(std::uint32_t) + 64;
     return std::uint32_t(
         std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
 }

@@ -14,11 +14,12 @@ void chain_chunk(uint begin) {
     chains[thread()] = no_entry;
     barrier();
     for (uint n = thread(); n < min(partial_count - begin, chunk); n += workers) {
-        const uint i = partial_lists[partial_first + begin + n];
+        const uint i = partial_lists[partial_first + begin + n], word = word_of(code_in(i), number_mask());
+        const ivec3 whole = whole_of(places[i], cocs[i]);
         [[dont_unroll]] for (uint l = 0; l < points; ++l) {
-            const ivec2 at = seen_at(places[i], cocs[i], eyes[l]);
+            const ivec2 at = seen_at(whole, whole_eyes[l]);
             const bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)));
-            if (inside && key_of(uppers[i], i) >= front[cell_of(l, at)])
+            if (inside && word >= front[cell_of(l, at)])
                 nexts[l * chunk + n] = atomicExchange(chains[owner_of(uvec2(at))], l * chunk + n) |
                                        (at.y * size + at.x) << 16;
         }
