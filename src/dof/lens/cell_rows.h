@@ -1,5 +1,5 @@
-// The loops over samples and cells that take most of the gather's time. Each gives the same bits on every processor. The
-// compiler makes their vectors, which needs no library in every plugin and wheel.
+// The loops over samples and cells that take most of the gather's time. Each gives the same bits on every processor.
+// The compiler makes their vectors, which needs no library in every plugin and wheel.
 #pragma once
 
 #include "base/numbers.h"

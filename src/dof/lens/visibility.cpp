@@ -123,8 +123,8 @@ CellWord VisibilityPass::image_at(const Visibility &seen, std::size_t cell) cons
     return front;
 }
 
-// Finds empty cells, and cracks: also in cells that are not empty, because in even surfaces, cells between samples seldom
-// stay empty, and show what is far behind instead.
+// Finds empty cells, and cracks. These may lie in cells that are not empty: in even surfaces, cells between samples
+// seldom stay empty, and show what is far behind instead.
 void VisibilityPass::find_cracks(Visibility &seen) {
     cracks_.clear();
     const CellWord step = samples_.word_of(kernels::behind_crack(1, samples_.units().codes) - 1, 0);

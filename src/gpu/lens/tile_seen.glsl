@@ -1,4 +1,4 @@
-// Finds the nearest sample in each cell that the lens points see: of opaque samples, of facets between them (dof/facets)
+// Finds the nearest sample in each cell that the lens points see: of opaque ones, of facets between them (dof/facets)
 // and of solids behind them (dof/lens/sample_blocks.h). Each sample is read once for all of the lens points.
 
 // Returns where a sample is, and its CoC, in units of the tile.
@@ -59,7 +59,9 @@ void see(uint kind, uint list, uint count) {
         if (kind == images && !is_image(i.x)) continue;
         const ivec3 whole = whole_of(places[i.x], kind == images ? shown[i.x] : cocs[i.x]);
         const uint number = kind == with_solids ? number_of_sample(solids[i.x - push.sample_count]) : i.z;
-        uint word = word_of(kind == images ? image_code(shown[i.x], units.farthest, units.image_codes) : code_in(i.x), number);
+        uint code = code_in(i.x);
+        if (kind == images) code = image_code(shown[i.x], units.farthest, units.image_codes);
+        uint word = word_of(code, number);
         if (uppers[i.x] < hiding) word -= hiding;
         for (uint l = 0; l < points; ++l) {
             const ivec2 at = seen_at(whole, from[l]);
