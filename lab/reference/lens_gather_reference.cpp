@@ -188,10 +188,11 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
 Rounding rounding_of(const Scene &scene, long double widest, long double extent) {
     Rounding rounding{extent, 128, 1};
     while (rounding.lens_unit < widest * 0.999L) rounding.lens_unit *= 2;
+    while (widest > 0 && rounding.lens_unit / 2 >= widest * 0.999L) rounding.lens_unit /= 2;
     long double coc = 0;
     for (const auto *some : {&scene.samples, &scene.fillers, &scene.solids})
         for (const Placed &s : *some) coc = std::max({coc, std::abs(s.coc), std::abs(s.image_coc)});
-    while ((2 * coc * rounding.lens_unit + 38) * rounding.unit > 32767 && rounding.unit > 4)
+    while ((2 * coc * rounding.lens_unit + 38.5L) * rounding.unit > 32767 && rounding.unit > 4)
         rounding.unit /= 2;
     return rounding;
 }

@@ -124,7 +124,7 @@ Margin margin(long double sample, long double coc, long double lens, long double
                       moved = std::floor(whole(coc_units, 1e-6L * std::abs(coc_units)) * lens_units / 32768 +
                                          0.5L);
     const long double seen = whole(sample * by.unit, 5e-7L * by.extent * by.unit) + moved +
-                             std::floor(looks * by.unit + 0.5L) - pixel * by.unit;
+                             std::floor(looks * by.unit) - pixel * by.unit;
     return {(by.unit / 2 - std::abs(seen + 0.5L - by.unit / 2)) / by.unit, (unsure + 0.25L) / by.unit};
 }
 

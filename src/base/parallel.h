@@ -147,10 +147,11 @@ void in_order(std::size_t count, const Make &make, const Take &take,
 } // namespace sparselens
 
 // Compiles loops over all pixels for several processors. No version contracts products and sums, so all give the same
-// bits. It is off under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has started.
+// bits. It is off for other processors than x86-64, which have no AVX2, and under ThreadSanitizer, because the loader
+// chooses among them before ThreadSanitizer has started.
 
-#ifdef __SANITIZE_THREAD__
-#define FOR_PROCESSORS
-#else
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define FOR_PROCESSORS [[gnu::target_clones("default,avx2")]]
+#else
+#define FOR_PROCESSORS
 #endif

@@ -46,6 +46,10 @@ inline int whole_place(float at, float middle, float unit, float farthest) {
 }
 inline int whole_coc(float coc, float coc_unit, float most) { return whole(coc * coc_unit, most); }
 inline int whole_lens(float lens, float lens_unit) { return whole(lens / lens_unit * 32768, 32767); }
+// Downwards: the cell of a sum of whole numbers is then that of the exact sum on the mean, and always in focus.
+inline int whole_shift(float shift, float unit, float farthest) {
+    return whole(floor(shift * unit), farthest * unit);
+}
 inline int moved(int coc, int lens) { return ((coc * lens >> 14) + 1) >> 1; }
 
 // Returns where a lens point sees a corner of a facet along one axis, in pixels from the corner of a tile's cells. The

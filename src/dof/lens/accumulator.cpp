@@ -139,13 +139,17 @@ void Accumulator::cover_by(const Visibility &seen, Groups groups, const Passes &
     const std::size_t samples = partial.count();
     const std::uint16_t *cells = seen.partial_cells.data();
     const CellWord *words = partial.placed.words.data(), *front = seen.front.data();
-    const float *leaves = partial.left.data(), *coc = partial.coc.data(), *colours = partial_.data();
+    const CellWord mask = samples_.number_mask();
+    const float *depths = partial.depth.data(), *leaves = partial.left.data(), *coc = partial.coc.data(),
+                *colours = partial_.data();
     float *lefts = left_.data(), *over = over_.data();
     std::uint32_t *covered = covered_cells_.data();
     const bool two_sided = sides_ > 1;
     for (std::size_t n = 0; n < samples; ++n) {
         const auto cell = std::size_t(cells[n]);
-        if (words[n] < front[cell]) continue;
+        if (words[n] - front[cell] <= mask &&
+            (words[n] < front[cell] || depths[n] < samples_.shown[std::size_t(front[cell] & mask)].depth))
+            continue; // behind it; samples of one code are compared by their depth
         const float left = lefts[cell], share = left * passed(n, cell);
         const std::size_t side = two_sided && coc[n] < 0 ? 1 : 0;
         *covered = std::uint32_t(cell);

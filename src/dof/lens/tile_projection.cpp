@@ -11,13 +11,17 @@ namespace sparselens {
 using namespace tile_cells;
 
 kernels::TileUnits tile_units(float largest_coc, std::span<const LensSample> lens) {
-    float reach = 0;
-    for (const LensSample &p : lens) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+    float reach = 0, shift = 0;
+    for (const LensSample &p : lens) {
+        reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+        shift = std::max({shift, std::abs(p.pixel_x), std::abs(p.pixel_y)});
+    }
     kernels::TileUnits units{128, 1, 0, 0, 0, 0};
     while (units.lens_unit < reach * 0.999f) units.lens_unit *= 2;
-    const auto all = [&] { return (2 * units.farthest + kernels::around_tile_px + 1) * units.unit; };
+    while (reach > 0 && units.lens_unit / 2 >= reach * 0.999f) units.lens_unit /= 2;
+    const auto all = [&] { return (2 * units.farthest + shift + kernels::around_tile_px) * units.unit; };
     constexpr float most = 32767, least_unit = 4;
-    units.farthest = std::min(largest_coc * units.lens_unit, most / least_unit / 2 - 20);
+    units.farthest = std::min(largest_coc * units.lens_unit + shift, (most / least_unit - shift) / 2 - 20);
     while (all() > most) units.unit /= 2;
     return units;
 }
@@ -36,8 +40,8 @@ void WholePlaces::add(const kernels::TileUnits &units, const Imath::V2f &middle,
 WholeLens::WholeLens(const kernels::TileUnits &units, const LensSample &lens)
     : x(std::int16_t(kernels::whole_lens(lens.x, units.lens_unit))),
       y(std::int16_t(kernels::whole_lens(lens.y, units.lens_unit))),
-      shift_x(std::int16_t(kernels::whole(lens.pixel_x * units.unit, units.unit))),
-      shift_y(std::int16_t(kernels::whole(lens.pixel_y * units.unit, units.unit))),
+      shift_x(std::int16_t(kernels::whole_shift(lens.pixel_x, units.unit, units.farthest))),
+      shift_y(std::int16_t(kernels::whole_shift(lens.pixel_y, units.unit, units.farthest))),
       first(std::int16_t(-(size / 2 + border) * int(units.unit))),
       last(std::int16_t((size / 2 + border) * int(units.unit) - 1)),
       to_pixel(std::int16_t(65536 / units.unit)) {}

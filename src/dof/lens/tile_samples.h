@@ -85,7 +85,7 @@ public:
     std::vector<std::array<CellWord, 3>> facets; // of the tile's blocks, in their order
     bool is_deep = false;                        // whether a crack may lie between the depths of two samples
 
-    // Of each number:
+    // Arrays by number:
     struct Shown {
         float x = 0, y = 0, depth = 0; // pixels
         std::uint32_t sample = 0;      // of the scene, if it is no filler

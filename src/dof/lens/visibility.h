@@ -89,7 +89,7 @@ private:
     const TileTask &tile_;
     TileSamples samples_;
     BlockBounds bounds_, filler_bounds_, solid_bounds_; // of its blocks
-    // Of one lens point:
+    // The state of one lens point:
     WholeLens lens_;
     std::vector<CellWord> fillers_; // [cell]
     std::vector<CellWord> images_;  // [cell]: the nearest image that lies there

@@ -62,7 +62,8 @@ void main() {
             const Lens p = lens_points[first_lens + l];
             eyes[l] = vec4(p.x, p.y, p.pixel_x, p.pixel_y);
             whole_eyes[l] = ivec4(whole_lens(p.x, units.lens_unit), whole_lens(p.y, units.lens_unit),
-                                  whole(p.pixel_x * units.unit, units.unit), whole(p.pixel_y * units.unit, units.unit));
+                                  whole_shift(p.pixel_x, units.unit, units.farthest),
+                                  whole_shift(p.pixel_y, units.unit, units.farthest));
             weights[l] = p.weight;
         }
         if (is_weighted) weigh_channels(group);

@@ -117,13 +117,14 @@ constexpr std::size_t tiles_at_once = 512; // limits the memory of their lists
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
 std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 
-// Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little.
+// Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little, and
+// in software more than three take more turns of loops than turns_of() counts.
 std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
     const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
                       of_point = cells * sizeof(std::uint32_t) + lens_kernel::chunk * sizeof(std::uint32_t),
-                      others = threads_on(device) * 4 * sizeof(std::uint32_t) + 64;
-    return std::uint32_t(
-        std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
+                      others = threads_on(device) * 5 * sizeof(std::uint32_t) + 64;
+    const std::size_t most = device.info().kind == Kind::software ? 3 : 4;
+    return std::uint32_t(std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, most));
 }
 
 // Sorts lens points so that each group of `points` consecutive ones lies close together: in bands from side to side of

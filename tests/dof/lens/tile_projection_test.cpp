@@ -55,6 +55,17 @@ TEST(TileProjection, SamplesFallWhereTheLensPointSeesThem) {
         }
 }
 
+// Not by rounding alone, however near to its edge the lens point looks through a pixel; a skewed lens moves it far.
+TEST(TileProjection, WhatIsInFocusLeavesItsPixelByAShiftOfHalfAPixelOrMore) {
+    for (const float shift : {-0.5f, -0.499f, 0.498f, 0.4999f, -7.25f, 5.75f}) {
+        const LensSample lens{1, 1, shift, -0.5f, 1};
+        const std::vector<float> x = {3.5f, 40.5f}, y = {9.5f, 20.5f}, coc = {0, 0};
+        const std::vector<std::uint16_t> cells = cells_of(lens, {0, 0}, 20, x, y, coc);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            EXPECT_EQ(cells[i], cell_of(lens, {0, 0}, double(x[i]), double(y[i]), 0)) << shift;
+    }
+}
+
 TEST(TileProjection, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
     const float inf = std::numeric_limits<float>::infinity();
     const std::vector<float> x = {1e30f, -inf, 4, 5, 6, std::nanf("")}, y = {4, 4, -1e30f, 4, 4, 4},

@@ -60,15 +60,17 @@ struct Seen {
     static constexpr std::uint32_t nothing = ~0u;
     GatherScene scene;
     TileTask task;
-    VisibilityPass visibility{scene, task};
+    VisibilityPass visibility;
     const Visibility &by_point = visibility.through(task.lens.front());
 
-    explicit Seen(const TileFixture &tile) : scene(tile.scene()), task(tile.task()) {}
-    Seen(const TileFixture &tile, const BlockedSamples &solids) : scene(tile.scene()), task(tile.task()) {
-        scene.solids = solids;
-        task.solids = tile.blocks;
-    }
+    explicit Seen(const TileFixture &tile, const BlockedSamples &solids = {})
+        : scene(tile.scene()), task(tile.task()), visibility(pass(solids, tile.blocks)) {}
 
+    VisibilityPass pass(const BlockedSamples &solids, const std::vector<std::uint32_t> &blocks) {
+        scene.solids = solids;
+        if (solids.count() > 0) task.solids = blocks;
+        return {scene, task};
+    }
     // The samples at a pixel: the opaque one, and what it shows.
     std::uint32_t front(int x, int y) const { return sample(by_point.front, x, y); }
     std::uint32_t shown(int x, int y) const { return sample(by_point.shown(), x, y); }
