@@ -16,7 +16,7 @@ for name in sparselens libc6 libstdc++6 nlohmann-json3-dev README common-license
     [ -s "$made/licences/$name.txt" ] || [ -s "$made/licences/$name" ] || fail "no licence of $name"
 done
 while read -r library; do
-    grep -q "^$(dpkg-query -S "*/${library##*/}" | sed '/^diversion by /d; /: .*\/libx*32\//d' | sed -n '1s/:.*//p') " "$made/licences/README.txt" || fail "no licence of $library"
+    grep -q "^$(dpkg-query -S "*/${library##*/}" | sed '/^diversion by /d; /-cross: /d; /: .*\/libx*32\//d' | sed -n '1s/:.*//p') " "$made/licences/README.txt" || fail "no licence of $library"
 done < <(find "$made/lib" -maxdepth 1 -name '*.so*')
 
 # The files are the build's, also by a link on the PATH and in another folder.
