@@ -4,8 +4,8 @@
 #   tools/release.sh [FOLDER [BUILD]] [--all]     FOLDER: where the files go (release); BUILD: the build folder
 #                                                 (build-release); --all: also for 64-bit ARM (tools/arm.sh)
 #
-# An hour on two cores, two with --all. As root, on Debian 12; needs the net for Debian's packages and PyPI's. tests/packaging/release.sh
-# tries the files in bare roots of Debian.
+# An hour on two cores, two with --all. As root, on Debian 12; needs the net for Debian's packages and PyPI's.
+# tests/packaging/release.sh tries the files in bare roots of Debian.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 fail() {

@@ -224,8 +224,7 @@ std::string doubt_of(const MatchedLens &lens, const Reduced &in, const LensFit &
                      bool is_ambiguous) {
     if (evidence.textured < MatchTuning::least_textured)
         return "the region of the plate shows nothing to compare, or something else than the LDI; check the "
-               "shot "
-               "and the frame, or choose a region with texture";
+               "shot and the frame, or choose a region with texture";
     if (lens.matched_share < MatchTuning::least_matched)
         return fmt::format(
             "the plate shows something else than the LDI: {:.0f} % of the blocks match; check the "

@@ -18,9 +18,10 @@ bool is_photograph(const std::string &path, const PictureChoice &choice);
 
 // Reads the picture and its depth, integers as 0 to 1. The depth belongs to the picture's display window; beyond it, that
 // of an integer file goes on as at its border. A depth of the picture's size stays as it is in the file; one of another
-// size is fitted (view/fitted_depth.h). Without a depth file, the depth is that in the photograph itself (own_depth.h). Colours of integers are encoded for a display, which the header states (see
-// extras_of); floating-point ones are linear. Throws Error or UsageError, naming the file, if it cannot be read, there is
-// no depth, it has another shape, or it has colours.
+// size is fitted (view/fitted_depth.h). Without a depth file, the depth is that in the photograph itself (own_depth.h).
+// Colours of integers are encoded for a display, which the header states (see extras_of); floating-point ones are linear.
+// Throws Error or UsageError, naming the file, if it cannot be read, there is no depth, it has another shape, or it has
+// colours.
 LdiFile read_photograph(const std::string &path, const PictureChoice &choice);
 
 // The parts of a photograph of integers beside its colours, from attributes of its header that EXR files do not get.

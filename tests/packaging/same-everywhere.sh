@@ -11,13 +11,12 @@ for archive in "${@:2}"; do
 done
 scenes=$("$bin/dof-trace" --help | sed -nE '/SCENE :/s/.*\{(.*)\}.*/\1/p' | tr , ' ')
 [ "$(wc -w <<<"$scenes")" -ge 10 ] || fail "dof-trace lists no scenes"
-made() { # DIR SCENE TO: the LDI, a picture of each quality and method, a PNG, and one stopped down
+made() { # DIR SCENE TO: the LDI, pictures of two qualities and another method, and one stopped down
     exits 0 "$1/ldi-warp" "$2/center.exr" "$2"/view_*.exr -o "$3.warped.exr"
     exits 0 "$1/ldi-cluster" "$3.warped.exr" -o "$3.ldi.exr"
     for by in '--quality draft' '--quality final' '--method selective' '--lens-radius 0.02'; do
         exits 0 "$1/dof-gather" "$3.ldi.exr" $by -o "$3.${by##* }.exr"
     done
-    exits 0 "$1/dof-gather" "$3.ldi.exr" -o "$3.png"
 }
 for scene in $scenes; do
     exits 0 "$bin/dof-trace" "$scene" --size 160x90 --views 4 --spp 4 -o "$scene"
@@ -25,7 +24,6 @@ for scene in $scenes; do
     for archive in "${@:2}"; do
         made "$PWD/$(basename "$archive" .tar.xz)/bin" "$scene" there
         for file in here.*; do
-            [ "$file" = here.png ] && continue # by another library
             cmp "$file" "there.${file#here.}" || fail "$scene: ${file#here.} differs in ${archive##*/}"
         done
         echo "$scene: $(ls here.* | wc -l) files are the same in ${archive##*/}"

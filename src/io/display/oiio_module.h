@@ -40,8 +40,8 @@ struct OiioFile {
     int bits;   // 8 or 16; 32: floating-point numbers
     bool alpha; // whether there is a fourth channel
     OiioBytes profile, exif;
-    bool
-        own_depth; // asked: read the depth that the file has beside its colours; the width is 0 if it has none
+    // Asked: read the depth that the file has beside its colours. The width is 0 if it has none.
+    bool own_depth;
 };
 
 struct OiioModule {

@@ -53,10 +53,13 @@ struct ShownFile {
     int orientation; // by which its rows were turned upright, 1 to 8 (Exif)
 };
 
-// Reads such a file: R, G and B, as encoded there, and A if it is below 1 anywhere. The colours are multiplied by A,
-// unless `without_alpha` leaves it out. Or reads the depth that HEIC and AVIF have beside their colours, without A; its
-// image is empty if there is none. Throws Error, beginning with `path`.
+// The parts of a file that are read together:
+// - picture: R, G and B, as encoded there, and A if it is below 1 anywhere; the colours are multiplied by A
+// - without_alpha: R, G and B, not multiplied
+// - own_depth: the depth that HEIC and AVIF have beside their colours, without A; an empty image if there is none
 enum class ShownPart { picture, without_alpha, own_depth };
+
+// Reads such a file. Throws Error, beginning with `path`.
 ShownFile read_shown_picture(const std::string &path, ShownPart part = ShownPart::picture);
 
 // Turns a picture of one channel by that orientation, as its file would have been.
