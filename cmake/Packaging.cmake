@@ -16,7 +16,7 @@ install(DIRECTORY share/ocio share/blender share/nuke share/comfyui share/lenses
         share/deadline share/flamenco
         share/python DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
-install(FILES ${CMAKE_BINARY_DIR}/share/blender/looks.json LICENSE # the zip of this folder goes to others
+install(FILES $<$<NOT:$<PLATFORM_ID:Windows>>:${CMAKE_BINARY_DIR}/share/blender/looks.json> LICENSE # the zip of this folder goes to others
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens/blender/sparselens_blender)
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}) # headers cite design.md

@@ -23,7 +23,7 @@ function(sparselens_tool_page name program component)
 endfunction()
 
 function(sparselens_tool name library component)
-    add_executable(${name} ${name}.cpp)
+    add_executable(${name} ${name}.cpp $<$<PLATFORM_ID:Windows>:${CMAKE_CURRENT_FUNCTION_LIST_DIR}/windows.rc>)
     target_link_libraries(${name} PRIVATE ${library} sparselens_flags sparselens_cold)
     sparselens_tool_page(${name} $<TARGET_FILE:${name}> ${component})
     install(TARGETS ${name} COMPONENT ${component})

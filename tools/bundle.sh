@@ -86,7 +86,7 @@ package_of() {
         sed '/^diversion by /d; s/: .*//; s/, .*//' | sed -n 1p
 }
 {
-    for library in "${libraries[@]}"; do package_of "$library"; done
+    for library in "${libraries[@]}" /usr/include/boost/beast.hpp; do package_of "$library"; done
     dpkg-query -W -f='${Package}\n' libcli11-dev nlohmann-json3-dev libvulkan-dev 2>/dev/null # headers
 } | sed 's/:[a-z0-9]*$//' | sort -u >"$work/packages"
 cp "$here/LICENSE" "$root/licences/sparselens.txt"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a job needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: arm, blender, build, bundle, ci, demo, gpu, lint, report, test
+#   tools/install-deps.sh SET...      sets: arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows
 #
 # Needs only a Debian base system (12 or later), and root or sudo if something is missing. Prints one line if everything
 # is installed; otherwise exits with 1 and one line that says why a package is not available.
@@ -10,7 +10,7 @@ set -eu
 release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-release}" 2>/dev/null || true)
 arm='debootstrap g++-aarch64-linux-gnu qemu-user-static'
 blender='blender libgl1-mesa-dri xauth xvfb'
-build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
+build='g++ cmake ninja-build pkg-config libboost-dev libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
        libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
 bundle='help2man xz-utils'
 ci=ccache
@@ -18,6 +18,7 @@ demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
+windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64'
 test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
       munge mypy nodejs openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
@@ -53,7 +54,8 @@ packages_of() {
             ;;
         report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (arm, blender, build, bundle, ci, demo, gpu, lint, report, test)" ;;
+        windows) echo $windows ;;
+        *) fail "unknown set '$set_name' (arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows)" ;;
         esac
     done
 }
@@ -76,7 +78,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: arm, blender, build, bundle, ci, demo, gpu, lint, report, test"
+[ $# -gt 0 ] || fail "name at least one set: arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows"
 wanted=$(packages_of "$@") || exit 1
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

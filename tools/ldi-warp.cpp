@@ -1,12 +1,11 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
+#include "base/memory.h"
 #include "chain/devices.h"
 #include "chain/make_ldi.h"
 #include "chain/notices.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
 #include "options/warp_options.h"
-
-#include <malloc.h>
 
 #include <algorithm>
 #include <memory>
@@ -43,7 +42,11 @@ void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &dev
 
 // Each step reuses the memory that the step before freed, whatever its size. Without this, the kernel clears most pages
 // several times.
-void keep_freed_memory() { mallopt(M_MMAP_MAX, 0); }
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 0);
+#endif
+}
 
 } // namespace
 

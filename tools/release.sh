@@ -3,8 +3,9 @@
 #
 #   tools/release.sh [FOLDER [BUILD]] [--all]     FOLDER: where the files go (release); BUILD: the build folder
 #                                                 (build-release); --all: also for 64-bit ARM (tools/arm.sh)
+#                                                 and Windows (tools/windows.sh)
 #
-# An hour on two cores, two with --all. As root, on Debian 12; needs the net for Debian's packages and PyPI's.
+# An hour on two cores, three with --all. As root, on Debian 12; needs the net for Debian's packages and PyPI's.
 # tests/packaging/release.sh tries the files in bare roots of Debian.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -76,7 +77,8 @@ cp "$work"/*.whl "$out/"
 
 if $all; then
     "$here/tools/arm.sh" "$out"
-    bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz"
+    "$here/tools/windows.sh" "$out"
+    bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz" "$out/$name-windows-x86_64.zip"
 fi
 
 say "the page"
@@ -88,11 +90,12 @@ row() { # FOR WHOM|WHAT TO DO|PATTERN
     done
 }
 {
-    echo "<!doctype html><meta charset=utf-8><title>sparselens $version</title><h1>sparselens $version for Linux</h1>"
+    echo "<!doctype html><meta charset=utf-8><title>sparselens $version</title><h1>sparselens $version</h1>"
     echo "<p>Depth of field for rendered pictures and photographs. Checksums: <a href=SHA256SUMS>SHA256SUMS</a>.<table>"
     for machine in "x86_64|x86-64" "aarch64|64-bit ARM"; do
         row "A command line, any Linux on ${machine#*|}|<code>tar xf FILE; export PATH=\$PWD/$name-linux-${machine%|*}/bin:\$PATH; dof-gather --help</code>|$name-linux-${machine%|*}.tar.xz"
     done
+    row "A command line, Windows 10 (not dof-view)|Unpack, and put its folder <code>bin</code> on the PATH.|$name-windows-x86_64.zip"
     row "Blender 3.4 to 5.2|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*.zip"
     row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*.whl"
     row "Hosts of OpenFX|Unpack into <code>/usr/OFX/Plugins</code>, and the first file; <code>SPARSELENS_BIN</code> names its bin.|*-openfx-*"

@@ -147,9 +147,10 @@ void in_order(std::size_t count, const Make &make, const Take &take,
 } // namespace sparselens
 
 // Compiles loops over all pixels for several processors of x86-64. No version contracts products and sums, so all give the
-// same bits. It is off under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has started.
+// same bits. It is off in Windows, whose loader cannot choose among them, and under ThreadSanitizer, because the loader
+// chooses before ThreadSanitizer has started.
 
-#if defined(__SANITIZE_THREAD__) || !defined(__x86_64__)
+#if defined(__SANITIZE_THREAD__) || !defined(__x86_64__) || defined(_WIN32)
 #define FOR_PROCESSORS
 #else
 #define FOR_PROCESSORS [[gnu::target_clones("default,avx2")]]

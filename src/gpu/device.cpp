@@ -38,14 +38,10 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &physical) {
 vk::raii::Device make_device(const vk::raii::PhysicalDevice &physical, std::uint32_t family) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-    vk::PhysicalDeviceShaderAtomicInt64Features atomics;
-    atomics.shaderSharedInt64Atomics = true;
-    vk::PhysicalDeviceFeatures2 features;
-    features.features.shaderInt64 = true;
-    features.features.shaderFloat64 = physical.getFeatures().shaderFloat64;
-    features.pNext = &atomics;
+    vk::PhysicalDeviceFeatures features;
+    features.shaderFloat64 = physical.getFeatures().shaderFloat64;
     vk::DeviceCreateInfo create({}, queue);
-    create.pNext = &features;
+    create.pEnabledFeatures = &features;
     return {physical, create};
 }
 

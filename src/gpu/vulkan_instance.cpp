@@ -55,11 +55,6 @@ bool computes(const vk::raii::PhysicalDevice &device) {
 
 std::string lacks(const vk::raii::PhysicalDevice &device, std::uint32_t version) {
     if (version < vulkan_version) return "Vulkan 1.2";
-    const auto features =
-        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceShaderAtomicInt64Features>();
-    if (!features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64) return "64-bit integers";
-    if (!features.get<vk::PhysicalDeviceShaderAtomicInt64Features>().shaderSharedInt64Atomics)
-        return "64-bit atomics in shared memory";
     if (!computes(device)) return "a queue that computes";
     return {};
 }

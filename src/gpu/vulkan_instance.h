@@ -15,7 +15,7 @@
 
 namespace sparselens::gpu {
 
-inline constexpr std::uint32_t vulkan_version = VK_API_VERSION_1_2; // it includes shared 64-bit atomics
+inline constexpr std::uint32_t vulkan_version = VK_API_VERSION_1_2;
 
 struct VulkanInstance {
     vk::raii::Context loader;

@@ -1,6 +1,7 @@
 #include "io/moment_files.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "base/text.h"
 #include "io/exr/exr_header.h"
 #include "io/files/file_stream.h"
@@ -39,10 +40,10 @@ std::optional<int> number_in(std::string_view text) {
 // The numbers of files that exist, with their spelling.
 std::vector<std::pair<int, std::string>> found_on_disk(const std::string &path) {
     const std::size_t at = path.find(placeholder, existing_folders(path)),
-                      slash = path.rfind('/', at) + 1; // 0 if there is none
+                      slash = path.find_last_of(system::separators, at) + 1; // 0 if there is none
     const std::string folder = slash > 0 ? path.substr(0, slash) : ".",
                       first = path.substr(slash, at - slash), after = path.substr(at + placeholder.size()),
-                      last = after.substr(0, after.find('/'));
+                      last = after.substr(0, after.find_first_of(system::separators));
     std::vector<std::pair<int, std::string>> found;
     std::error_code error, missing; // a folder that is not there has no files
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -61,9 +62,9 @@ std::vector<std::pair<int, std::string>> found_on_disk(const std::string &path) 
 
 std::size_t existing_folders(const std::string &path) {
     std::error_code missing;
-    std::size_t length = path.rfind('/') + 1; // 0 if there is none
+    std::size_t length = path.find_last_of(system::separators) + 1; // 0 if there is none
     while (length > 1 && !fs::is_directory(path.substr(0, length), missing))
-        length = path.rfind('/', length - 2) + 1;
+        length = path.find_last_of(system::separators, length - 2) + 1;
     return length;
 }
 

@@ -12,7 +12,7 @@ exits 0 "$source_dir/tools/bundle.sh" "$build" "my tools" unpacked
 made=$(echo "my tools"/sparselens-*-linux-x86_64)
 [ "$(du -s --apparent-size -B1 "$made" | cut -f1)" -le 120000000 ] || fail "too large: $(cat stdout)"
 if find "$made" | grep -iE 'avcodec|opencv|python3|libasan|/(dof-report|dof-accumulate)'; then fail "that does not belong there"; fi
-for name in sparselens libc6 libstdc++6 nlohmann-json3-dev README common-licenses/LGPL-2.1; do
+for name in sparselens libc6 libstdc++6 "$(dpkg-query -S /usr/include/boost/beast.hpp | sed "s/:.*//")" nlohmann-json3-dev README common-licenses/LGPL-2.1; do
     [ -s "$made/licences/$name.txt" ] || [ -s "$made/licences/$name" ] || fail "no licence of $name"
 done
 while read -r library; do

@@ -1,13 +1,19 @@
 #!/bin/bash
 # The archives for other kinds of machines make the same bytes from the same views: LDIs and pictures of all scenes of the
-# laboratory, by qemu where this machine cannot run them.
+# laboratory, by qemu or wine where this machine cannot run them.
 #   bash same-everywhere.sh BIN_DIR ARCHIVE...
 . "$(dirname "$0")/../tools/check.sh"
 [ $# -ge 2 ] || fail "name an archive of tools/release.sh --all"
+. "$source_dir/tests/packaging/windows-programs.sh"
+folder_of() { # ARCHIVE: what it unpacks to
+    local name=${1##*/}
+    name=${name%.zip}
+    echo "$scratch/${name%.tar.xz}"
+}
 for archive in "${@:2}"; do
-    tar -xJf "$archive" # beside the folders of earlier ones
-    name=$(basename "$archive" .tar.xz)
-    exits 0 "$PWD/$name/bin/dof-gather" --version
+    cmake -E tar xf "$archive" # beside the folders of earlier ones
+    windows_programs "$(folder_of "$archive")/bin"
+    exits 0 "$(folder_of "$archive")/bin/dof-gather" --version
 done
 scenes=$("$bin/dof-trace" --help | sed -nE '/SCENE :/s/.*\{(.*)\}.*/\1/p' | tr , ' ')
 [ "$(wc -w <<<"$scenes")" -ge 10 ] || fail "dof-trace lists no scenes"
@@ -22,7 +28,7 @@ for scene in $scenes; do
     exits 0 "$bin/dof-trace" "$scene" --size 160x90 --views 4 --spp 4 -o "$scene"
     made "$bin" "$scene" here
     for archive in "${@:2}"; do
-        made "$PWD/$(basename "$archive" .tar.xz)/bin" "$scene" there
+        made "$(folder_of "$archive")/bin" "$scene" there
         for file in here.*; do
             cmp "$file" "there.${file#here.}" || fail "$scene: ${file#here.} differs in ${archive##*/}"
         done

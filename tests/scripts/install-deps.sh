@@ -19,7 +19,7 @@ mkdir bin
 for base in cat env grep mktemp rm sed sh sort tail; do ln -s "$(command -v $base)" bin/$base; done
 run() { PATH=$scratch/bin "$script" "$@" >output 2>&1; }
 one_line() { [ "$(wc -l <output)" -eq 1 ]; }
-installed='g++ ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
+installed='g++ ninja-build pkg-config libboost-dev libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
            libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
 stand_in id 'echo 0'
 stand_in apt-get 'echo "$@" >>calls; case "$*" in *" update"*) exit ${UPDATE_EXIT-0} ;; esac

@@ -1,6 +1,8 @@
 #include "harness/process.h"
 
 #include "base/error.h"
+#include "base/memory.h"
+#include "base/system/system.h"
 #include "base/text.h"
 #include "harness/commands/frames.h"
 #include "io/files/file_stream.h"
@@ -10,10 +12,8 @@
 #include <ImfThreading.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <malloc.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -42,13 +42,6 @@ extern "C" void stop(int number) {
     remove_unfinished();
     std::signal(number, SIG_DFL);
     std::raise(number);
-}
-
-void handle_signals() {
-    // A closed pipe and a file that grows too large are errors to report, not a silent end.
-    for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP})
-        if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
 
 // CLI11 2.6 skips thousands separators in numbers, by default a comma: 2,5 would be read as 25.
@@ -96,6 +89,7 @@ void refuse_passed_over(const CLI::App &app) {
 // Since 2.6, CLI11 checks required options before it calls the options' callbacks; but --device list must print
 // and exit first.
 void parse_all(CLI::App &app, std::vector<std::string> words) {
+    app.allow_windows_style_options(false); // /views/ldi.exr is a file
     try {
         app.parse(std::move(words));
     } catch (const CLI::RequiredError &) {
@@ -216,7 +210,7 @@ void set_up_process(const ProcessOptions &options, const ToolContext &tool) {
         new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)));
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
     set_memory_limit(options.max_memory);
-    handle_signals();
+    system::handle_signals(stop);
     tool.say(fmt::format("threads: {}", threads));
 }
 

@@ -1,7 +1,8 @@
 #include "harness/progress_lines.h"
 
+#include "base/system/system.h"
+
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -14,7 +15,7 @@ namespace {
 Progress::Listener terminal_listener(const std::string &tool_name) {
     using Clock = std::chrono::steady_clock;
     static const auto from = Clock::now() + std::chrono::seconds(5); // short work shows none
-    if (!isatty(STDERR_FILENO)) return {};
+    if (!system::is_terminal(system::standard_error)) return {};
     return [tool_name](const std::string &stage, int percent) {
         if (Clock::now() >= from)
             fmt::print(stderr, "\r{}: {} {:3}%\x1b[K{}", tool_name, stage, percent,

@@ -1,15 +1,13 @@
 #include "harness/tool.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "harness/commands/file_arguments.h"
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
@@ -102,12 +100,12 @@ void write_stats(const ToolContext &tool, const Stats &fields) {
         line["ms"][step] = std::round(ms * 1000) / 1000;
     const std::string text = line.dump() + '\n';
     const bool to_stderr = tool.stats == "-";
-    const int file =
-        to_stderr ? STDERR_FILENO : open(tool.stats.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    const int file = to_stderr ? system::standard_error : system::open(tool.stats, system::Open::append);
     // One call, so that lines of stages that share the file do not mix.
-    const bool written = file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
+    const bool written =
+        file >= 0 && system::write(file, text.data(), text.size()) == std::ptrdiff_t(text.size());
     const int reason = errno;
-    if (!to_stderr && file >= 0) close(file);
+    if (!to_stderr && file >= 0) system::close(file);
     if (!written) throw Error(tool.stats + ": cannot write: " + std::strerror(reason));
 }
 

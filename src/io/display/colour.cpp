@@ -150,9 +150,10 @@ void ColourTransform::apply(std::span<float> r, std::span<float> g, std::span<fl
 }
 
 ColourTransform ColourTransform::of(const CurvesAndMatrix &made, bool inverse) {
-    const auto lines = ocio::Lut1DTransform::Create(made.curves[0].size(), false);
+    const auto count = static_cast<unsigned long>(made.curves[0].size()); // of 32 bits in Windows
+    const auto lines = ocio::Lut1DTransform::Create(count, false);
     lines->setInterpolation(ocio::INTERP_LINEAR);
-    for (unsigned long i = 0; i < made.curves[0].size(); ++i)
+    for (unsigned long i = 0; i < count; ++i)
         lines->setValue(i, made.curves[0][i], made.curves[1][i], made.curves[2][i]);
     const auto matrix = ocio::MatrixTransform::Create();
     std::array<double, 16> rows{};

@@ -2,18 +2,17 @@
 // libheif is loaded for the first such file. Its interface in C, declared here, has been the same since version 1.12.
 #pragma once
 
+#include "base/system/system.h"
 #include "io/display/png_jpeg.h"
-
-#include <dlfcn.h>
 
 namespace sparselens::heif {
 
 // Calls a function of libheif. The arguments have the types of its parameters, and all its objects are void here.
 template <typename Result, typename... Arguments>
 Result call(const char *name, Arguments... arguments) {
-    static void *const library = ::dlopen("libheif.so.1", RTLD_NOW | RTLD_LOCAL);
+    static void *const library = system::load_library("libheif.so.1");
     if (!library) throw std::runtime_error("HEIC and AVIF need libheif (sudo apt-get install libheif1)");
-    void *const function = ::dlsym(library, name);
+    void *const function = system::function_of(library, name);
     if (!function) throw std::runtime_error(std::string("HEIC and AVIF need a newer libheif, with ") + name);
     return reinterpret_cast<Result (*)(Arguments...)>(function)(arguments...);
 }

@@ -1,13 +1,13 @@
 #include "io/display/shown_picture.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "base/text.h"
 #include "io/display/oiio_module.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
 #include "io/files/text_file.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +23,11 @@ namespace {
 
 OiioModule load() {
     const std::string path = find_installed(SPARSELENS_MODULES "/" SPARSELENS_OIIO_MODULE);
-    void *module = path.empty() ? nullptr : ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void *entry = module ? ::dlsym(module, oiio_module_entry) : nullptr;
+    void *module = path.empty() ? nullptr : system::load_library(path);
+    void *entry = module ? system::function_of(module, oiio_module_entry) : nullptr;
     if (!entry)
         throw Error(std::string("cannot load OpenImageIO, which writes and reads PNG, JPEG and TIFF: ") +
-                    (path.empty() ? SPARSELENS_OIIO_MODULE " is not installed" : ::dlerror()));
+                    (path.empty() ? SPARSELENS_OIIO_MODULE " is not installed" : system::loading_error()));
     return reinterpret_cast<OiioModule (*)()>(entry)();
 }
 

@@ -1,12 +1,9 @@
 #include "io/files/file_stream.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 
-#include <dlfcn.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -40,35 +37,38 @@ Unfinished::~Unfinished() {
 
 void remove_unfinished() noexcept {
     for (const auto &path : paths)
-        if (const char *name = path) ::unlink(name);
+        if (const char *name = path) std::remove(name);
 }
 
 namespace {
 
+namespace fs = std::filesystem;
+
 // The mode of a file that a new one replaces; nothing if there is none. Throws Error if it is read-only: renaming would
 // replace it all the same.
-std::optional<mode_t> mode_to_keep(const std::string &target) {
-    struct stat info {};
-    if (::stat(target.c_str(), &info) != 0) return {};
-    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
-        fail_of_system(target, "cannot replace");
-    return info.st_mode & 07777;
+std::optional<fs::perms> mode_to_keep(const std::string &target) {
+    std::error_code unknown;
+    const fs::file_status status = fs::status(target, unknown);
+    if (!fs::exists(status)) return {};
+    if (!system::may_write(target)) fail_of_system(target, "cannot replace");
+    return status.permissions();
 }
 
 bool is_regular_or_new(const std::string &path) {
-    struct stat info {};
-    return ::stat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode);
+    std::error_code unknown;
+    const fs::file_status status = fs::status(path, unknown);
+    return !fs::exists(status) || fs::is_regular_file(status);
 }
 
 // The file to which a path leads, even if the last link points at a file that does not exist yet.
-std::filesystem::path follow_links(const std::string &path) {
-    std::filesystem::path target = path;
-    for (int depth = 0; std::filesystem::is_symlink(target); ++depth) {
+fs::path follow_links(const std::string &path) {
+    fs::path target = path;
+    for (int depth = 0; fs::is_symlink(target); ++depth) {
         if (depth == 40) { // the kernel's limit
             errno = ELOOP;
             fail_of_system(path, "cannot write");
         }
-        const std::filesystem::path next = std::filesystem::read_symlink(target);
+        const fs::path next = fs::read_symlink(target);
         target = next.is_absolute() ? next : target.parent_path() / next;
     }
     return target;
@@ -76,35 +76,17 @@ std::filesystem::path follow_links(const std::string &path) {
 
 } // namespace
 
-Descriptor::~Descriptor() { ::close(number_); }
-
 void write_all(const std::string &path, int descriptor, std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
+        const std::ptrdiff_t put = system::write(descriptor, bytes.data(), bytes.size());
         if (put <= 0) fail_of_system(path, "cannot write");
         bytes.remove_prefix(std::size_t(put));
     }
 }
 
-std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t position) {
-    std::size_t got = 0;
-    while (got < most) {
-        const ssize_t more = ::pread(descriptor, to + got, most - got, off_t(position + got));
-        if (more < 0 && errno == EINTR) continue;
-        if (more <= 0) break;
-        got += std::size_t(more);
-    }
-    return got;
-}
-
 std::string find_installed(const std::string &relative) {
-    namespace fs = std::filesystem;
     std::error_code unknown;
-    Dl_info code{};
-    ::dladdr(reinterpret_cast<const void *>(&find_installed), &code);
-    for (const fs::path &of : {fs::read_symlink("/proc/self/exe", unknown),
-                               fs::weakly_canonical(code.dli_fname ? code.dli_fname : "", unknown)})
+    for (const fs::path of : system::own_files())
         for (fs::path folder = of.parent_path(); folder != folder.parent_path();
              folder = folder.parent_path())
             if (fs::exists(folder / relative, unknown)) return (folder / relative).string();
@@ -139,8 +121,7 @@ public:
     void seekp(std::uint64_t position) override {
         if (to_file_) {
             flush();
-            if (::lseek(descriptor_, off_t(position), SEEK_SET) < 0)
-                fail_of_system(fileName(), "cannot seek");
+            if (!system::seek(descriptor_, position)) fail_of_system(fileName(), "cannot seek");
             start_ = position;
         } else {
             position_ = std::size_t(position);
@@ -164,24 +145,24 @@ private:
 
 OutputFile::OutputFile(const std::string &path) : path_(path) {
     if (path == "-") {
-        descriptor_ = ::dup(STDOUT_FILENO);
+        descriptor_ = system::duplicate(system::standard_output);
     } else if (!is_regular_or_new(path)) {
-        descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        descriptor_ = system::open(path, system::Open::write);
     } else {
-        const std::filesystem::path target = follow_links(path);
+        const fs::path target = follow_links(path);
         target_ = target.string();
         if (target.has_parent_path()) make_folder(target.parent_path().string());
-        const std::optional<mode_t> mode = mode_to_keep(target_);
+        const std::optional<fs::perms> mode = mode_to_keep(target_);
         constexpr std::size_t longest = 200; // file systems take 255, the rest of the name included
         const std::string name = target.filename().string().substr(0, longest);
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-            const std::string unique = fmt::format(".{}.{}-{}.partial", name, ::getpid(), attempt);
+            const std::string unique = fmt::format(".{}.{}-{}.partial", name, system::process_id(), attempt);
             temporary_ = std::make_unique<Unfinished>((target.parent_path() / unique).string());
-            descriptor_ = ::open(temporary_->path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            descriptor_ = system::open(temporary_->path(), system::Open::create);
             if (descriptor_ < 0 && errno != EEXIST) break;
         }
-        if (mode && descriptor_ >= 0)
-            (void)::fchmod(descriptor_, *mode); // as far as the file system has modes
+        std::error_code none; // as far as the file system has modes
+        if (mode && descriptor_ >= 0) fs::permissions(temporary_->path(), *mode, none);
     }
     if (descriptor_ < 0) {
         temporary_.reset();
@@ -191,31 +172,29 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
 }
 
 OutputFile::~OutputFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (temporary_) ::unlink(temporary_->path().c_str());
+    if (descriptor_ >= 0) system::close(descriptor_);
+    if (temporary_) std::remove(temporary_->path().c_str());
 }
 
 Imf::OStream &OutputFile::stream() { return *buffer_; }
 
-bool OutputFile::to_pipe() const {
-    struct stat info {};
-    return ::fstat(descriptor_, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
-}
+bool OutputFile::to_pipe() const { return system::is_pipe(descriptor_); }
 
 void OutputFile::commit() {
     buffer_->flush();
     const int descriptor = descriptor_;
     descriptor_ = -1;
-    if (::close(descriptor) != 0) fail_of_system(path_, "cannot write");
+    if (!system::close(descriptor)) fail_of_system(path_, "cannot write");
     if (target_.empty()) return;
-    if (::rename(temporary_->path().c_str(), target_.c_str()) != 0)
-        fail_of_system(path_, "cannot rename the finished file");
+    std::error_code error;
+    fs::rename(temporary_->path(), target_, error);
+    if (error) throw Error(display_name(path_) + ": cannot rename the finished file: " + error.message());
     temporary_.reset();
 }
 
 void make_folder(const std::string &path) {
     std::error_code error;
-    std::filesystem::create_directories(path, error);
+    fs::create_directories(path, error);
     if (error) throw Error(path + ": cannot create the folder: " + error.message());
 }
 
@@ -254,6 +233,14 @@ private:
     std::uint64_t position_ = 0;
 };
 
+struct Descriptor {
+    explicit Descriptor(int opened) : number(opened) {}
+    ~Descriptor() { system::close(number); }
+    Descriptor(const Descriptor &) = delete;
+    Descriptor &operator=(const Descriptor &) = delete;
+    const int number;
+};
+
 // Reads small pieces, such as those of headers, through a buffer.
 class FileInput : public InputStream {
 public:
@@ -268,7 +255,7 @@ public:
             if (wanted >= buffered) return read_direct(c, wanted);
             start_ = position_;
             buffer_.resize(buffered);
-            buffer_.resize(read_at(file_->number(), buffer_.data(), buffered, start_));
+            buffer_.resize(system::read_at(file_->number, buffer_.data(), buffered, start_));
             if (wanted > buffer_.size()) fail_as_truncated();
         }
         std::memcpy(c, buffer_.data() + (position_ - start_), wanted);
@@ -280,7 +267,7 @@ public:
     std::uint64_t bytes() const override { return size_; }
     std::uint64_t read_from(std::uint64_t position, char *to, std::uint64_t count) const override {
         if (position > most_bytes || count > most_bytes - position) fail_as_truncated();
-        return read_at(file_->number(), to, count, position);
+        return system::read_at(file_->number, to, count, position);
     }
     std::unique_ptr<InputStream> another() const override {
         return std::make_unique<FileInput>(fileName(), file_, size_);
@@ -288,13 +275,13 @@ public:
 
 private:
     static constexpr std::size_t buffered = 4096;
-    static constexpr std::uint64_t most_bytes = std::numeric_limits<off_t>::max();
+    static constexpr std::uint64_t most_bytes = std::numeric_limits<std::int64_t>::max();
 
     [[noreturn]] void fail_as_truncated() const {
         throw Error(std::string(fileName()) + ": the file is truncated");
     }
     bool read_direct(char *c, std::size_t wanted) {
-        if (read_at(file_->number(), c, wanted, position_) != wanted) fail_as_truncated();
+        if (system::read_at(file_->number, c, wanted, position_) != wanted) fail_as_truncated();
         position_ += wanted;
         return true;
     }
@@ -328,8 +315,7 @@ std::vector<char> read_whole(const std::string &path, int descriptor, Content co
     std::size_t used = 0;
     for (;;) {
         if (used == bytes.size()) bytes.resize(std::max<std::size_t>(1 << 20, 2 * used));
-        const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
-        if (got < 0 && errno == EINTR) continue;
+        const std::ptrdiff_t got = system::read(descriptor, bytes.data() + used, bytes.size() - used);
         if (got < 0) fail_of_system(path, "cannot read");
         if (got == 0) break;
         used += std::size_t(got);
@@ -365,19 +351,18 @@ std::unique_ptr<InputStream> open_input(const std::string &path, Content content
         return std::make_unique<MemoryInput>(display_name(path), std::make_shared<const std::vector<char>>(
                                                                      read_whole(path, descriptor, content)));
     };
-    if (path == "-") return in_memory(STDIN_FILENO);
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (path == "-") return in_memory(system::standard_input);
+    std::error_code unknown;
+    if (fs::is_directory(path, unknown)) throw Error(path + ": is a folder, not a file");
+    const int descriptor = system::open(path, system::Open::read);
     if (descriptor < 0 && errno == ENOENT && is_for_the_shell(path))
         throw Error(path +
                     ": there is no such file: the shell replaces {0..3}, *, ? and ~ only outside of quotes");
     if (descriptor < 0) fail_of_system(path, "cannot open");
     const auto file = std::make_shared<const Descriptor>(descriptor);
-    struct stat info {};
-    if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode))
-        throw Error(path + ": is a folder, not a file");
-    if (S_ISREG(info.st_mode)) {
-        check_size(path, std::uint64_t(info.st_size), content);
-        return std::make_unique<FileInput>(path, file, std::uint64_t(info.st_size));
+    if (const auto size = system::size_of(descriptor)) {
+        check_size(path, *size, content);
+        return std::make_unique<FileInput>(path, file, *size);
     }
     return in_memory(descriptor);
 }

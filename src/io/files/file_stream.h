@@ -84,23 +84,8 @@ private:
     std::unique_ptr<Buffer> buffer_;
 };
 
-// A descriptor of the system, which it closes.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor();
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
-// Writes all bytes; an Error begins with `path`. Reads bytes from `position` on and returns their number: fewer than
-// `most` at the end, or if they cannot be read.
+// Writes all bytes; an Error begins with `path`.
 void write_all(const std::string &path, int descriptor, std::string_view bytes);
-std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t position);
 
 // The file or folder with this path relative to a folder above the program, or above the library or module that holds
 // this code, or else to the installation's prefix; empty if there is none.

@@ -1,10 +1,10 @@
 #include "io/files/memory_limit.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "io/files/file_stream.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,8 +25,7 @@ std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", std::ceil(
 } // namespace
 
 std::uint64_t memory_of_machine(const std::string &root) {
-    std::uint64_t least = std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGESIZE)),
-                  limit;
+    std::uint64_t least = system::physical_memory(), limit;
     std::ifstream groups(root + "/proc/self/cgroup"); // lines like 0::/a/b (version 2) and 4:cpu,memory:/a/b
     for (std::string number, kinds, group;
          std::getline(std::getline(std::getline(groups, number, ':'), kinds, ':'), group);) {

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -70,15 +68,15 @@ std::string shown_in_message(const Json &value) {
     return text.size() <= longest_shown ? text : text.substr(0, longest_shown) + "...";
 }
 
-MemoryFile::MemoryFile(std::string_view contents) : file_(::memfd_create("sparselens", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(std::string_view contents) {
     if (file_.number() < 0) fail_of_system("a file in memory", "cannot make");
     write_all("a file in memory", file_.number(), contents);
 }
 
 bool MemoryFile::can_hold(std::size_t bytes) const {
-    const int file = file_.number();
-    const off_t size = ::lseek(file, 0, SEEK_END);
-    return ::ftruncate(file, std::max(size, off_t(bytes))) == 0 && ::ftruncate(file, size) == 0;
+    const std::uint64_t size = system::size_of(file_.number()).value_or(0);
+    return system::resize(file_.number(), std::max<std::uint64_t>(size, bytes)) &&
+           system::resize(file_.number(), size);
 }
 
 } // namespace sparselens

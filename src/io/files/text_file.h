@@ -2,6 +2,7 @@
 // reason.
 #pragma once
 
+#include "base/system/system.h"
 #include "io/files/file_stream.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,8 +28,7 @@ nlohmann::json read_json_file(const std::string &path);
 // A value as an error message shows it: a long one is cut off.
 std::string shown_in_message(const nlohmann::json &value);
 
-// A file in memory for code that writes or reads files only by name. It is in no folder, so no other user can open it,
-// put a link in its place, or find it after a crash.
+// A file for code that writes or reads files only by name, in memory where the system can.
 class MemoryFile {
 public:
     explicit MemoryFile(std::string_view contents = {}); // throws Error if the system provides none
@@ -36,11 +36,10 @@ public:
     // Whether it could have so many bytes. If not (errno tells why), what was written may be cut off.
     bool can_hold(std::size_t bytes) const;
 
-    // A path that opens the file, in this process only.
-    std::string path() const { return "/proc/self/fd/" + std::to_string(file_.number()); }
+    const std::string &path() const { return file_.path(); }
 
 private:
-    Descriptor file_; // the system removes it when it is closed
+    system::UnnamedFile file_;
 };
 
 } // namespace sparselens

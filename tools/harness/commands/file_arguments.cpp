@@ -1,12 +1,12 @@
 #include "harness/commands/file_arguments.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "base/text.h"
 #include "io/moment_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <filesystem>
@@ -60,9 +60,7 @@ void add_masks(std::vector<NamedFile> &files, const CLI::Option &option) {
 // Equal for two names of one file; empty for a folder or a device.
 std::string identity(const std::string &path) {
     if (path == "-") return path;
-    struct stat info {};
-    if (::stat(path.c_str(), &info) == 0)
-        return S_ISREG(info.st_mode) ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
+    if (const auto stamp = system::stamp_of(path)) return stamp->identity;
     std::error_code error; // the file does not exist yet: find where it would be written
     fs::path target = path;
     for (int links = 0; links < 40 && fs::is_symlink(target, error); ++links)

@@ -1,12 +1,12 @@
 #include "harness/commands/frames.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "base/text.h"
 #include "chain/parameters.h"
 #include "harness/commands/file_arguments.h"
 #include "io/moment_files.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,13 +137,13 @@ OnDisk found_on_disk(const std::string &name) {
     if (!place) return {};
     if (names_moments(name)) return frames_of_first_moment(name);
     const std::string before = name.substr(0, place->begin), after = name.substr(place->end);
-    const std::size_t slash = before.rfind('/') + 1; // 0 if there is none
+    const std::size_t slash = before.find_last_of(system::separators) + 1; // 0 if there is none
     const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),
-                      last = after.substr(0, after.find('/'));
+                      last = after.substr(0, after.find_first_of(system::separators));
     OnDisk found;
     std::error_code error; // a folder that is not there has no files
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-        const std::string file = entry->path().filename().native();
+        const std::string file = entry->path().filename().string();
         const auto number = number_in(file, first, last);
         if (!number) continue;
         const std::size_t digits = file.size() - first.size() - last.size();
@@ -181,21 +181,21 @@ std::vector<int> frame_numbers(const std::string &range) {
     const UsageError no_range(
         fmt::format("--frames: invalid frame range '{}' (expected e.g. 1-100, 1-100x2 or 1,3,5-9)", range));
     if (range.size() > longest_name || range.empty()) throw no_range;
-    std::vector<int> numbers, more;
+    std::vector<int> numbers;
     for (std::size_t from = 0, to = 0; to < range.size(); from = to + 1) {
         to = std::min(range.find(',', from), range.size());
-        std::string text = range.substr(from, to - from);
+        const std::string text = range.substr(from, to - from);
         std::smatch match;
         if (!std::regex_match(text, match, part)) throw no_range;
-        const long first = std::stol(match[1]), last = match[2].matched ? std::stol(match[2]) : first,
-                   step =
-                       match[3] == "x" || match[3] == ":" ? std::max(std::abs(std::stol(match[4])), 1L) : 1;
-        if (numbers.size() + std::size_t(std::abs(last - first) / step) >= most_frames) // before making them
+        int first = std::stoi(match[1]), last = match[2].matched ? std::stoi(match[2]) : first,
+            step = match[4].matched ? std::stoi(match[4]) : 1;
+        if (step == 0) step = 1;
+        const bool left_out = match[3] == "y";
+        if (numbers.size() + std::size_t(std::abs((last - first) / (left_out ? 1 : step))) >= most_frames)
             throw UsageError(fmt::format("--frames: '{}' has more than a million frames", range));
-        std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
-        std::ranges::replace(text, ':', 'x'); // OpenImageIO's spelling
-        if (!OIIO::Filesystem::enumerate_sequence(text, more)) throw no_range;
-        numbers.insert(numbers.end(), more.begin(), more.end());
+        if (step < 0 && first < last) std::swap(first, last); // a step below 0 counts down
+        for (int number = first, way = last < first ? -1 : 1; number != last + way; number += way)
+            if (((number - first) % step == 0) != left_out) numbers.push_back(number);
     }
     if (numbers.empty()) throw no_range;
     return numbers;

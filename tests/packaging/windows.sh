@@ -1,0 +1,51 @@
+# The archive for Windows, by wine with a new prefix: the README's sixty seconds, names with spaces and letters beyond ASCII,
+# long names, replaced files, binary pipes, damaged files.
+#   bash windows.sh BIN_DIR ARCHIVE [FOLDER]     FOLDER: fifty damaged EXR files or more, by its whole path
+. "$(dirname "$0")/../tools/check.sh"
+. "$source_dir/tests/packaging/windows-programs.sh"
+[ $# -ge 2 ] || fail "name an archive of tools/windows.sh"
+cmake -E tar xf "$2"
+there=$scratch/$(basename "$2" .zip)/bin
+windows_programs "$there"
+traced fence 160x90 views
+for program in "$there"/*.exe; do exits 0 "${program%.exe}" --help; done
+
+# The README's sixty seconds make the files that this machine's programs make. Both ends of a pipe are binary.
+sixty_seconds() { # BIN FOLDER
+    mkdir "$2"
+    "$1/ldi-warp" views/center.exr views/view_?.exr -o - | "$1/ldi-cluster" - -o "$2/fence.ldi.exr"
+    exits 0 "$1/dof-gather" "$2/fence.ldi.exr" -o "$2/as-rendered.exr"
+    exits 0 "$1/dof-gather" "$2/fence.ldi.exr" --focus-distance 2.2 -o "$2/focus-on-the-fence.png"
+    exits 0 "$1/dof-gather" "$2/fence.ldi.exr" --lens-radius 0.02 -o "$2/stopped-down.exr"
+}
+sixty_seconds "$bin" here
+sixty_seconds "$there" there
+for file in here/*.exr; do cmp "$file" "there/${file##*/}" || fail "${file##*/} differs"; done
+idiff -q here/focus-on-the-fence.png there/focus-on-the-fence.png >stdout || fail "the PNG differs"
+exits 0 "$there/dof-compare" here/as-rendered.exr there/as-rendered.exr
+
+# Any name; missing folders are made; a file is replaced, or left as it was if it is read-only or the work fails.
+far="Ordner mit Leerzeichen/größer 𝄞/$(printf 'x%.0s' {1..120})/$(printf 'y%.0s' {1..120})"
+exits 0 "$there/dof-gather" here/fence.ldi.exr -o "$far/bild ü.exr"
+cmp "$far/bild ü.exr" here/as-rendered.exr
+exits 0 "$there/dof-gather" here/fence.ldi.exr --lens-radius 0.02 -o "$far/bild ü.exr"
+cmp "$far/bild ü.exr" here/stopped-down.exr
+chmod a-w "$far/bild ü.exr"
+fails_saying 1 'ü.exr: cannot replace' "$there/dof-gather" here/fence.ldi.exr -o "$far/bild ü.exr"
+cmp "$far/bild ü.exr" here/stopped-down.exr
+fails_saying 1 'kein größeres.exr: cannot open: No such file' "$there/dof-gather" 'kein größeres.exr' -o "$far/new.exr"
+cp here/fence.ldi.exr "$far/ldi.exr"
+fails_saying 2 'would overwrite the input' "$there/dof-gather" "$far/ldi.exr" -o "$far/../${far##*/}/ldi.exr"
+[ "$(find "$far" -type f | wc -l)" -eq 2 ] || fail "temporary files are left: $(ls -a "$far")"
+
+# Damaged files: one line for each, and no crash.
+files=0
+for file in ${3+"$3"/*}; do
+    [ -f "$file" ] || continue
+    code=0
+    "$there/dof-gather" "$file" -o damaged.exr >stdout 2>stderr </dev/null || code=$?
+    { [ $code -eq 1 ] && [ "$(wc -l <stderr)" -eq 1 ]; } || [ $code -eq 0 ] || fail "$file: exit $code, $(cat stderr)"
+    files=$((files + 1))
+done
+[ $# -eq 2 ] || [ $files -ge 50 ] || fail "$3 has only $files files"
+echo "$(basename "$2"): the same files, and $files damaged files without a crash"
