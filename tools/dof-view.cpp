@@ -1,9 +1,11 @@
 // dof-view: serves a page for the browser that shows the picture of a layered depth image through a lens, and changes
 // the lens.
 #include "base/error.h"
+#include "base/system/system.h"
 #include "harness/commands/frames.h"
 #include "harness/process.h"
 #include "harness/tool.h"
+#include "io/files/file_stream.h"
 #include "io/lens_file.h"
 #include "options/gather_options.h"
 #include "viewing/access.h"
@@ -11,11 +13,7 @@
 #include "viewing/server.h"
 
 #include <CLI/CLI.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,12 +31,12 @@ namespace {
 
 // Writes a page that redirects to the address. The file is deleted a minute later, or with the temporary folder.
 std::string file_that_leads_to(const std::string &address) {
-    std::string path = (std::filesystem::temp_directory_path() / "dof-view-XXXXXX.html").string();
-    const int file = ::mkstemps(path.data(), 5); // only its owner can read it
-    const std::string page = fmt::format("<meta http-equiv=\"refresh\" content=\"0;url={}\">\n", address);
-    const bool written = file >= 0 && ::write(file, page.data(), page.size()) == ssize_t(page.size());
-    if (file >= 0) ::close(file);
-    if (!written) throw Error("--open: cannot write " + path);
+    const std::string name = fmt::format("dof-view-{}.html", random_key()),
+                      path = (std::filesystem::temp_directory_path() / name).string();
+    const int file = system::open(path, system::Open::secret);
+    if (file < 0) fail_of_system("--open", "cannot write " + path);
+    write_all("--open", file, fmt::format("<meta http-equiv=\"refresh\" content=\"0;url={}\">\n", address));
+    system::close(file);
     return path;
 }
 
@@ -46,15 +44,11 @@ std::string file_that_leads_to(const std::string &address) {
 // of a process. Throws Error if the file cannot be written or no program opens it.
 void open_browser(const std::string &address) {
     const std::string file = file_that_leads_to(address);
-    std::string program = "xdg-open", argument = file;
-    char *words[] = {program.data(), argument.data(), nullptr};
-    pid_t process = 0;
-    if (::posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ) != 0) {
+    if (!system::show_in_browser(file)) {
         std::filesystem::remove(file);
         throw Error("--open: xdg-open is not there (Debian: xdg-utils); open " + address);
     }
-    std::thread([process, file] {
-        ::waitpid(process, nullptr, 0);
+    std::thread([file] {
         std::this_thread::sleep_for(std::chrono::minutes(1));
         std::error_code gone;
         std::filesystem::remove(file, gone);

@@ -1,7 +1,6 @@
 // Any bytes from a connection of dof-view: parsed into as many requests as they hold, each within its limits.
-#include "viewing/http_request.h"
-
 #include "fuzz/fuzz.h"
+#include "viewing/http_server.h"
 
 using namespace sparselens;
 

@@ -78,10 +78,11 @@ grep -q "'fstop': 2.0" stdout || fail "--frames says $(cat stdout)"
 says --reference reference.exr --save . --max-memory 1GB
 says --plate reference.exr
 mkdir path
-printf '#!/bin/sh\ncat "$1" >opened\nstat -c %%a "$1" >>opened\n' >path/xdg-open
+printf '#!/bin/sh\ncat "$1" >opened\nstat -c %%a "$1" >>opened\nls -l /proc/self/fd >>opened\n' >path/xdg-open
 chmod +x path/xdg-open
 PATH=$PWD/path:$PATH says --open
 grep -qE 'url=http://127.0.0.1:[0-9]+/\?key=[0-9a-f]{32}"' opened && grep -qx 600 opened || fail "--open: $(cat opened)"
+! grep -q socket: opened || fail "--open: the browser keeps the port: $(cat opened)"
 port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 says --port "$port"
 fails_saying 1 'none.exr: cannot open' "$bin/dof-view" ldi.exr --reference none.exr

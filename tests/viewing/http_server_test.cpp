@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <memory>
 #include <new>
@@ -15,6 +16,66 @@
 
 namespace sparselens {
 namespace {
+
+const std::string asked = "POST /picture?key=ab12&x=1 HTTP/1.1\r\nHost: 127.0.0.1:80\r\nORIGIN:http://a\r\n"
+                          "x-sparselens-key:  other \r\nContent-Length: 5\r\n\r\nhello";
+
+int status_of(std::string text) {
+    try {
+        return take_request(text) ? 200 : 0;
+    } catch (const HttpRefusal &refusal) {
+        return refusal.status;
+    }
+}
+
+TEST(HttpRequest, IsTakenOnceItIsThere) {
+    std::string received;
+    for (const char c : asked) {
+        EXPECT_FALSE(take_request(received));
+        received += c;
+    }
+    received += "GET / HTTP/1.0\r\n\r\n";
+    const auto first = take_request(received), second = take_request(received);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->method + first->path + first->key + first->host + first->origin + first->body,
+              "POST/pictureab12127.0.0.1:80http://ahello");
+    EXPECT_TRUE(first->keep_alive);
+    EXPECT_EQ(second->method + second->path + second->key, "GET/");
+    EXPECT_FALSE(second->keep_alive);
+    EXPECT_EQ(received, "");
+}
+
+TEST(HttpRequest, KeyMayBeAHeader) {
+    std::string received = "GET /?a=key HTTP/1.1\r\nX-Sparselens-Key: ab\r\nConnection: Close\r\n\r\n";
+    const auto request = take_request(received);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->key, "ab");
+    EXPECT_FALSE(request->keep_alive);
+}
+
+TEST(HttpRequest, AnythingElseIsRefused) {
+    for (const char *line :
+         {"", "GET", "GET / HTTP/9.9", "get / HTTP/1.1", "GET x HTTP/1.1", "GET  / HTTP/1.1",
+          "GET / HTTP/1.1 x", "GET / HTTP/1.1\r\nno colon", "GET / HTTP/1.1\r\nHost: a\r\nHost: b",
+          "GET / HTTP/1.1\r\nOrigin: a\r\nOrigin: b",
+          "GET / HTTP/1.1\r\nX-Sparselens-Key: a\r\nX-Sparselens-Key: b",
+          "GET / HTTP/1.1\r\nContent-Length: -5", "GET / HTTP/1.1\r\nContent-Length: 5x",
+          "GET / HTTP/1.1\r\nContent-Length: 5\r\nContent-Length: 6"})
+        EXPECT_EQ(status_of(line + std::string("\r\n\r\n")), 400) << line;
+    EXPECT_EQ(status_of("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"), 411);
+    EXPECT_EQ(status_of("POST / HTTP/1.1\r\nContent-Length: 16385\r\n\r\n"), 413);
+    EXPECT_EQ(status_of("POST / HTTP/1.1\r\nContent-Length: 9999999999999999999\r\n\r\n"), 413);
+    EXPECT_EQ(status_of("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n"),
+              400); // above 2^64
+}
+
+TEST(HttpRequest, IsBoundedWhetherItEndsOrNot) {
+    EXPECT_EQ(status_of(std::string(most_head, 'G')), 0);
+    EXPECT_EQ(status_of(std::string(most_head + 1, 'G')), 431);
+    EXPECT_EQ(status_of("GET / HTTP/1.1\r\nX: " + std::string(most_head, 'x') + "\r\n\r\n"), 431);
+    EXPECT_EQ(status_of("POST / HTTP/1.1\r\nContent-Length: 16384\r\n\r\n" + std::string(most_body, 'x')),
+              200);
+}
 
 // A connection to a port of this machine.
 class Client {
@@ -57,17 +118,20 @@ private:
 
 const std::string get = "GET /x?key=k HTTP/1.1\r\n\r\n";
 
-// A server that answers with its path if the request knows the key k.
+HttpAnswer path_of(const HttpRequest &request) {
+    if (request.path == "/memory") throw std::bad_alloc();
+    if (request.path == "/none")
+        return {.status = 404, .type = "a/b", .body = "xyz", .headers = {{"Many", "y"}}};
+    return {.body = request.path + "\n"};
+}
+
+// A server that answers if the request knows the key k.
 class Running {
 public:
-    explicit Running(const HttpLimits &limits = {})
+    explicit Running(const HttpLimits &limits = {}, HttpServer::Answer answer = path_of)
         : server_(
-              0, [](const HttpRequest &request) { return request.key == "k"; },
-              [](const HttpRequest &request) -> HttpAnswer {
-                  if (request.path == "/memory") throw std::bad_alloc();
-                  return {.body = request.path + "\n"};
-              },
-              "More: 1\r\n", limits),
+              0, [](const HttpRequest &request) { return request.key == "k"; }, std::move(answer),
+              {{"More", "1"}}, limits),
           thread_([this] { server_.run(); }) {}
     ~Running() {
         server_.end();
@@ -90,6 +154,33 @@ TEST(HttpServer, AnswersOverOneConnection) {
     client->say("GET /y HTTP/1.0\r\nX-Sparselens-Key: k\r\n\r\n");
     EXPECT_NE(client->hear("/y\n").find("More: 1\r\n"), std::string::npos);
     EXPECT_TRUE(client->has_ended());
+}
+
+TEST(HttpServer, AnswersHaveALengthAndMoreHeaders) {
+    const Running server;
+    const auto client = server.client();
+    client->say("GET /none?key=k HTTP/1.1\r\nConnection: close\r\n\r\n");
+    EXPECT_EQ(client->hear("xyz"), "HTTP/1.1 404 Not Found\r\nContent-Type: a/b\r\nContent-Length: 3\r\n"
+                                   "Connection: close\r\nMany: y\r\nMore: 1\r\n\r\nxyz");
+}
+
+TEST(HttpServer, AnswersManyWithFewThreads) {
+    std::atomic<int> at_once_now = 0, most = 0;
+    const Running server({}, [&](const HttpRequest &request) {
+        for (int before = most, now = ++at_once_now; before < now;)
+            if (most.compare_exchange_weak(before, now)) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --at_once_now;
+        return path_of(request);
+    });
+    std::vector<std::unique_ptr<Client>> clients;
+    for (int i = 0; i < 200; ++i) {
+        clients.push_back(server.client());
+        clients.back()->say(get + get + get + get + get);
+    }
+    for (const auto &client : clients)
+        for (int i = 0; i < 5; ++i) EXPECT_NE(client->hear("/x\n"), "");
+    EXPECT_LE(most, int(HttpServer::most_at_once));
 }
 
 TEST(HttpServer, NeedsTheKeyAndARequest) {
@@ -142,8 +233,8 @@ TEST(HttpServer, ARequestHasATotalTime) {
 
 TEST(HttpServer, HasAPortOfItsOwn) {
     const Running server;
-    const HttpServer one(0, {}, {}, "");
-    EXPECT_THROW(HttpServer(one.port(), {}, {}, ""), Error);
+    const HttpServer one(0, {}, {}, {});
+    EXPECT_THROW(HttpServer(one.port(), {}, {}, {}), Error);
 }
 
 } // namespace

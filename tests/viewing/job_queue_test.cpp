@@ -94,23 +94,5 @@ TEST(JobQueue, IsLeftWithWorkInHand) {
     }
 }
 
-TEST(ThreadPool, DoesAllWithFewThreads) {
-    std::atomic<int> done = 0, at_once_now = 0, most = 0;
-    {
-        ThreadPool pool;
-        for (int i = 0; i < 1000; ++i)
-            pool.add([&] {
-                const int now = ++at_once_now;
-                for (int before = most; before < now && !most.compare_exchange_weak(before, now);) {
-                }
-                std::this_thread::sleep_for(std::chrono::microseconds(100));
-                --at_once_now;
-                ++done;
-            });
-    }
-    EXPECT_EQ(done, 1000);
-    EXPECT_LE(most, int(ThreadPool::most_at_once));
-}
-
 } // namespace
 } // namespace sparselens

@@ -14,7 +14,7 @@
 
 namespace sparselens {
 
-// Returns 128 random bits of the system as 32 digits. Throws Error if the system provides none.
+// Returns 128 random bits of the system as 32 digits. Throws std::exception if the system provides none.
 std::string random_key();
 
 // Compares in the same time wherever the two differ, unless their lengths differ.

@@ -2,271 +2,275 @@
 
 #include "base/error.h"
 
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/eventfd.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#ifndef _WIN32
+#include <fcntl.h>
+#endif
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdint>
 #include <exception>
-#include <new>
-#include <utility>
+#include <set>
+#include <thread>
 
 namespace sparselens {
 
 namespace {
 
-constexpr std::chrono::milliseconds most_draining{1000}, most_waiting{200};
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
 
-void close_file(int &file) {
-    if (file >= 0) ::close(file);
-    file = -1;
+constexpr std::chrono::milliseconds most_draining{1000}, a_moment{10};
+
+std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+// The value of `key` in a query like "?x=1&key=2".
+std::string key_in(std::string query) {
+    std::ranges::replace(query, '?', '&');
+    const std::string name = "&key=";
+    const std::size_t at = query.find(name), begin = at + name.size();
+    return at == std::string::npos ? "" : query.substr(begin, query.find('&', begin) - begin);
 }
 
-sockaddr_in loopback(int port) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(std::uint16_t(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return address;
+HttpRequest request_of(const http::request<http::string_body> &said) {
+    for (const char *name : {"Host", "Origin", "X-Sparselens-Key"})
+        if (said.count(name) > 1) throw HttpRefusal{400, "a header stands there twice"};
+    if (said.count(http::field::transfer_encoding) > 0)
+        throw HttpRefusal{411, "the request does not say its length"};
+    const std::string target = text_of(said.target()), path = target.substr(0, target.find('?'));
+    if (said.method() == http::verb::unknown || !path.starts_with('/'))
+        throw HttpRefusal{400, "not a request of HTTP/1.1"};
+    const std::string key = key_in(target.substr(path.size()));
+    return {.method = text_of(said.method_string()),
+            .path = path,
+            .key = key.empty() ? text_of(said["X-Sparselens-Key"]) : key,
+            .host = text_of(said[http::field::host]),
+            .origin = text_of(said[http::field::origin]),
+            .body = said.body(),
+            .keep_alive = said.keep_alive()};
 }
 
-int listening_at(int port) {
-    int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    const sockaddr_in address = loopback(port);
-    const int yes = 1; // still refuses a port that another process listens on
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    if (::bind(socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0 ||
-        ::listen(socket, SOMAXCONN) != 0) {
-        close_file(socket);
-        throw Error(
-            fmt::format("--port {}: the port is not available; another program may be using it", port));
-    }
-    return socket;
+void refuse(const beast::error_code &error) {
+    if (error == http::error::header_limit) throw HttpRefusal{431, "the head of the request is too long"};
+    if (error == http::error::body_limit) throw HttpRefusal{413, "the request is too long"};
+    if (error == http::error::bad_content_length) throw HttpRefusal{400, "Content-Length is not a number"};
+    throw HttpRefusal{400, "not a request of HTTP/1.1"};
 }
-
-bool comes_later(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
-
-HttpAnswer refusal(int status, const std::string &why) { return {.status = status, .body = why + "\n"}; }
 
 } // namespace
 
-// A request that a thread of the pool works on.
-struct HttpServer::Task {
-    HttpRequest request;
-    HttpAnswer answer;
-    std::atomic<bool> done = false;
+std::optional<HttpRequest> take_request(std::string &received) {
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(most_head + 1); // refuses a head of this length
+    parser.body_limit(most_body);
+    parser.eager(true);
+    beast::error_code error;
+    const std::size_t used = parser.put(asio::buffer(received), error);
+    if (error && error != http::error::need_more) refuse(error);
+    if (!parser.is_header_done()) return {};
+    HttpRequest request = request_of(parser.get());
+    if (!parser.is_done()) return {};
+    received.erase(0, used);
+    return request;
+}
+
+struct HttpServer::State {
+    IsAuthorised is_authorised;
+    Answer answer;
+    HttpHeaders headers;
+    HttpLimits limits;
+    std::set<Connection *> connections = {}; // those that are open
+    asio::io_context context{1};
+    tcp::acceptor listener{context};
+    std::size_t at_work = 0; // requests that the pool has
+    asio::thread_pool pool{1};
+    std::vector<std::jthread> more = {}; // threads of the pool, each created when first needed
+
+    ~State() { pool.stop(); }
+    bool make_room();
+    void add_thread();
 };
 
-struct HttpServer::Connection {
-    enum class State { reading, working, writing, draining };
-
-    explicit Connection(Clock::time_point until) : latest(until) {}
-    ~Connection() { close_file(socket); }
-    Connection(const Connection &) = delete;
-    Connection &operator=(const Connection &) = delete;
-
-    int socket = -1;
-    State state = State::reading;
-    Clock::time_point began = Clock::now(); // waiting for this request
-    Clock::time_point latest;               // when to close it, unless it makes progress
-    std::string received = {};
-    std::shared_ptr<Task> task = {};
-    std::string head = {}, body = {}; // of the answer
-    std::size_t sent = 0;
-    bool keep_alive = true, over = false;
-
-    bool can_go() const { return state == State::reading || state == State::draining; }
-    pollfd awaited() const { // not polled while working: a closed peer is noticed when the answer is sent
-        return {state == State::working ? -1 : socket, short(state == State::writing ? POLLOUT : POLLIN), 0};
+// Handlers own it: it exists while it waits for bytes, for an answer, or for room to send one.
+class HttpServer::Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(tcp::socket socket, State &server) : server_(server), stream_(std::move(socket)) {
+        stream_.socket().set_option(tcp::no_delay(true));
+        server_.connections.insert(this);
     }
+    ~Connection() { server_.connections.erase(this); }
+
+    // When it began to wait for a request or for its end; time_point::max() while a request is answered.
+    Clock::time_point waits_since() const { return waits_since_; }
+
+    void close() {
+        server_.connections.erase(this);
+        stream_.close();
+    }
+
+    void wait_for_request() {
+        waits_since_ = Clock::now();
+        stream_.expires_after(received_.empty() ? server_.limits.idle : server_.limits.request);
+        take();
+    }
+
+private:
+    void receive() {
+        const auto on_bytes = [self = shared_from_this()](beast::error_code error, std::size_t got) {
+            if (error) return;
+            if (!self->keep_alive_) return self->receive(); // dropped
+            if (self->received_.empty()) self->stream_.expires_after(self->server_.limits.request);
+            self->received_.append(self->bytes_.data(), got);
+            self->take();
+        };
+        stream_.async_read_some(asio::buffer(bytes_), on_bytes);
+    }
+
+    // Begins work on the first received request, if it is complete.
+    void take() try {
+        if (auto request = take_request(received_))
+            work(std::move(*request));
+        else
+            receive();
+    } catch (const HttpRefusal &refused) {
+        keep_alive_ = false;
+        reply({.status = refused.status, .body = std::string(refused.why) + "\n"});
+    }
+
+    void work(HttpRequest request) {
+        waits_since_ = Clock::time_point::max();
+        keep_alive_ = request.keep_alive;
+        if (!server_.is_authorised(request))
+            return reply({.status = 403,
+                          .body = "not allowed: open the address that dof-view has printed, with its key\n"});
+        if (++server_.at_work > server_.more.size() + 1) server_.add_thread();
+        asio::post(server_.pool, [self = shared_from_this(), request = std::move(request)]() mutable {
+            HttpAnswer answer;
+            try {
+                answer = self->server_.answer(request);
+            } catch (...) { // no memory, not even for the message
+                answer = {.status = 500, .type = "text/plain"};
+            }
+            auto &context = self->server_.context;
+            asio::post(context, [self = std::move(self), answer = std::move(answer)]() mutable {
+                --self->server_.at_work;
+                self->reply(std::move(answer));
+            });
+        });
+    }
+
+    void reply(HttpAnswer answer) {
+        waits_since_ = Clock::time_point::max();
+        response_ = {http::status(answer.status), 11, std::move(answer.body)};
+        response_.set(http::field::content_type, answer.type);
+        response_.prepare_payload();
+        response_.keep_alive(keep_alive_);
+        for (const HttpHeaders &headers : {answer.headers, server_.headers})
+            for (const auto &[name, value] : headers) response_.set(name, value);
+        serializer_.emplace(response_);
+        send();
+    }
+
+    // Sends as much as the other side takes; after the last byte waits for its next request, or for its end.
+    void send() {
+        stream_.expires_after(server_.limits.answer);
+        const auto on_sent = [self = shared_from_this()](beast::error_code error, std::size_t) {
+            if (error) return;
+            if (!self->serializer_->is_done()) return self->send();
+            self->response_ = {};
+            if (self->keep_alive_) return self->wait_for_request();
+            self->drain();
+        };
+        http::async_write_some(stream_, *serializer_, on_sent);
+    }
+
+    // Reads what still comes, else the answer would be lost.
+    void drain() {
+        beast::error_code gone;
+        stream_.socket().shutdown(tcp::socket::shutdown_send, gone);
+        waits_since_ = Clock::now();
+        stream_.expires_after(most_draining);
+        receive();
+    }
+
+    State &server_;
+    beast::tcp_stream stream_;
+    Clock::time_point waits_since_ = Clock::now();
+    std::array<char, 4096> bytes_ = {};
+    std::string received_ = {};
+    http::response<http::string_body> response_ = {};
+    std::optional<http::response_serializer<http::string_body>> serializer_ = {};
+    bool keep_alive_ = true;
 };
-
-HttpServer::HttpServer(int port, IsAuthorised is_authorised, Answer answer, std::string headers,
-                       const HttpLimits &limits)
-    : is_authorised_(std::move(is_authorised)), answer_(std::move(answer)), headers_(std::move(headers)),
-      limits_(limits), listener_(listening_at(port)), wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-    files_.reserve(2 + limits_.connections);
-}
-
-HttpServer::~HttpServer() {
-    pool_.end();
-    close_file(listener_);
-    close_file(wake_);
-}
-
-int HttpServer::port() const {
-    sockaddr_in address{};
-    socklen_t size = sizeof address;
-    ::getsockname(listener_, reinterpret_cast<sockaddr *>(&address), &size);
-    return ntohs(address.sin_port);
-}
-
-void HttpServer::end() {
-    ending_ = true;
-    ::eventfd_write(wake_, 1);
-}
-
-void HttpServer::run() {
-    while (!ending_) {
-        wait();
-        attend_all();
-        connections_.remove_if([](const Connection &connection) { return connection.over; });
-        if (files_[1].revents != 0) accept_all();
-    }
-}
-
-// Waits for an event.
-void HttpServer::wait() {
-    const bool has_room =
-        connections_.size() < limits_.connections || std::ranges::any_of(connections_, &Connection::can_go);
-    files_.clear(); // its capacity is reserved, so this allocates no memory
-    files_.push_back({wake_, POLLIN, 0});
-    files_.push_back({has_room && Clock::now() >= accept_again_ ? listener_ : -1, POLLIN, 0});
-    for (const Connection &connection : connections_) files_.push_back(connection.awaited());
-    ::poll(files_.data(), files_.size(), int(most_waiting.count()));
-    eventfd_t woken = 0;
-    ::eventfd_read(wake_, &woken);
-}
-
-void HttpServer::attend_all() {
-    auto file = files_.begin() + 2;
-    for (Connection &connection : connections_) {
-        const short events = (file++)->revents;
-        try {
-            attend(connection, events);
-        } catch (const std::exception &) { // no memory: closes this connection, keeps the others
-            connection.over = true;
-        }
-    }
-}
-
-void HttpServer::accept_all() try {
-    while (connections_.size() < limits_.connections || make_room()) {
-        Connections one;
-        one.emplace_back(Clock::now() + limits_.idle);
-        one.back().socket = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-        if (one.back().socket < 0) {
-            if (!comes_later(errno) && !make_room()) accept_again_ = Clock::now() + most_waiting;
-            return;
-        }
-        const int yes = 1;
-        ::setsockopt(one.back().socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-        connections_.splice(connections_.end(), one);
-    }
-} catch (const std::bad_alloc &) {
-    accept_again_ = Clock::now() + most_waiting;
-}
 
 // Closes the connection that has withheld its request for longest. Returns whether there was one.
-bool HttpServer::make_room() {
-    auto oldest = connections_.end();
-    for (auto each = connections_.begin(); each != connections_.end(); ++each)
-        if (each->can_go() && (oldest == connections_.end() || each->began < oldest->began)) oldest = each;
-    if (oldest == connections_.end()) return false;
-    connections_.erase(oldest);
+bool HttpServer::State::make_room() {
+    const auto oldest = std::ranges::min_element(connections, {}, &Connection::waits_since);
+    if (oldest == connections.end() || (*oldest)->waits_since() == Clock::time_point::max()) return false;
+    (*oldest)->close();
     return true;
 }
 
-void HttpServer::attend(Connection &connection, short events) {
-    using State = Connection::State;
-    if (connection.state == State::working) {
-        if (connection.task->done) {
-            const std::shared_ptr<Task> task = std::exchange(connection.task, {});
-            reply(connection, std::move(task->answer), task->request.keep_alive);
-        }
-        return;
-    }
-    if (events != 0 && connection.state == State::writing) send(connection);
-    if (events != 0 && connection.can_go()) receive(connection);
-    if (Clock::now() >= connection.latest) connection.over = true;
+void HttpServer::State::add_thread() try {
+    if (more.size() + 1 < most_at_once) more.emplace_back([this] { pool.attach(); });
+} catch (const std::exception &) { // no memory for another thread: the existing ones do the task
 }
 
-void HttpServer::receive(Connection &connection) {
-    std::array<char, 16384> bytes;
-    const ssize_t got = ::recv(connection.socket, bytes.data(), bytes.size(), 0);
-    if (got < 0 && comes_later(errno)) return;
-    if (got <= 0) connection.over = true;
-    if (got <= 0 || connection.state == Connection::State::draining) return;
-    if (connection.received.empty()) connection.latest = Clock::now() + limits_.request;
-    connection.received.append(bytes.data(), std::size_t(got));
-    begin(connection);
-}
-
-// Begins work on the first received request, if it is complete.
-void HttpServer::begin(Connection &connection) {
-    const auto task = std::make_shared<Task>();
+HttpServer::HttpServer(int port, IsAuthorised is_authorised, Answer answer, HttpHeaders headers,
+                       const HttpLimits &limits)
+    : state_(new State{std::move(is_authorised), std::move(answer), std::move(headers), limits}) {
+    tcp::acceptor &listener = state_->listener;
+    listener.open(tcp::v4());
+#ifndef _WIN32 // where reuse would share the port
+    listener.set_option(tcp::acceptor::reuse_address(true));
+    ::fcntl(listener.native_handle(), F_SETFD, FD_CLOEXEC); // the browser must not keep the port
+#endif
     try {
-        auto request = take_request(connection.received);
-        if (!request) return;
-        task->request = std::move(*request);
-    } catch (const HttpRefusal &why) {
-        reply(connection, refusal(why.status, why.why), false);
-        return;
+        listener.bind({asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)});
+        listener.listen();
+    } catch (const boost::system::system_error &) {
+        throw Error(
+            fmt::format("--port {}: the port is not available; another program may be using it", port));
     }
-    if (!is_authorised_(task->request)) {
-        reply(connection,
-              refusal(403, "not allowed: open the address that dof-view has printed, with its key"),
-              task->request.keep_alive);
-        return;
-    }
-    connection.state = Connection::State::working;
-    connection.task = task;
-    pool_.add([this, task] {
-        try {
-            task->answer = answer_(task->request);
-        } catch (...) { // no memory, not even for the message
-            task->answer = {.status = 500, .type = "text/plain"};
+}
+
+HttpServer::~HttpServer() = default;
+
+int HttpServer::port() const { return state_->listener.local_endpoint().port(); }
+
+void HttpServer::end() { state_->context.stop(); }
+
+void HttpServer::run() {
+    while (!state_->context.stopped()) try {
+            accept();
+            state_->context.run();
+        } catch (const std::exception &) { // no memory, or no room: what needed it is closed
+            state_->listener.cancel();
+            std::this_thread::sleep_for(a_moment);
         }
-        task->done = true;
-        ::eventfd_write(wake_, 1);
+}
+
+void HttpServer::accept() {
+    state_->listener.async_accept([this](const beast::error_code &error, tcp::socket socket) {
+        if (error == asio::error::operation_aborted) return;
+        const bool full = error || state_->connections.size() >= state_->limits.connections;
+        if (full && !state_->make_room()) throw Error("there are too many connections");
+        accept();
+        if (!error) std::make_shared<Connection>(std::move(socket), *state_)->wait_for_request();
     });
-}
-
-void HttpServer::reply(Connection &connection, HttpAnswer answer, bool keep_alive) {
-    answer.headers += headers_;
-    connection.head = head_of(answer, keep_alive);
-    connection.body = std::move(answer.body);
-    connection.sent = 0;
-    connection.keep_alive = keep_alive;
-    connection.state = Connection::State::writing;
-    connection.latest = Clock::now() + limits_.answer;
-    send(connection);
-}
-
-// Sends as much as the other side takes now; after the last byte waits for its next request, or for its end.
-void HttpServer::send(Connection &connection) {
-    const std::size_t head = connection.head.size(), all = head + connection.body.size();
-    while (connection.sent < all) {
-        const bool in_head = connection.sent < head;
-        const std::string &text = in_head ? connection.head : connection.body;
-        const std::size_t from = in_head ? connection.sent : connection.sent - head;
-        const ssize_t taken = ::send(connection.socket, text.data() + from, text.size() - from,
-                                     MSG_NOSIGNAL | (in_head && all > head ? MSG_MORE : 0));
-        if (taken < 0 && comes_later(errno)) return;
-        if (taken <= 0) {
-            connection.over = true;
-            return;
-        }
-        connection.sent += std::size_t(taken);
-        connection.latest = Clock::now() + limits_.answer;
-    }
-    connection.body = {};
-    connection.began = Clock::now();
-    if (!connection.keep_alive) { // reads what it still sends, else the answer would be lost
-        ::shutdown(connection.socket, SHUT_WR);
-        connection.state = Connection::State::draining;
-        connection.latest = connection.began + most_draining;
-        return;
-    }
-    connection.state = Connection::State::reading;
-    connection.latest = connection.began + (connection.received.empty() ? limits_.idle : limits_.request);
-    if (!connection.received.empty()) begin(connection);
 }
 
 } // namespace sparselens

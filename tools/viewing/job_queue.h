@@ -12,8 +12,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
-#include <vector>
 
 namespace sparselens {
 
@@ -50,27 +48,6 @@ private:
     std::deque<std::shared_ptr<Job>> waiting_; // at most one per page
     std::shared_ptr<Job> at_work_;             // null: no work is running
     std::size_t finished_ = 0;
-};
-
-// Threads that work on requests: at most `most_at_once`, each created when first needed. The callers of add() limit the
-// number of waiting tasks.
-class ThreadPool {
-public:
-    static constexpr std::size_t most_at_once = 64;
-
-    ~ThreadPool() { end(); }
-    void add(std::function<void()> task); // the task must not throw; add() throws if no thread can be created
-    void end();                           // waits for all added tasks
-
-private:
-    void run();
-
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<std::function<void()>> waiting_;
-    std::vector<std::thread> threads_;
-    std::size_t idle_ = 0;
-    bool ending_ = false;
 };
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "viewing/pipe.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "harness/progress_lines.h"
 #include "io/files/file_stream.h"
 #include "viewing/access.h"
@@ -70,7 +71,7 @@ std::string take_pixels(std::size_t bytes) {
     struct stat info {};
     if (::fstat(pixel_file, &info) != 0) fail_of_system("the file for pixels", "cannot read");
     std::string pixels(std::min(bytes, std::size_t(info.st_size)), '\0');
-    pixels.resize(read_at(pixel_file, pixels.data(), pixels.size(), 0));
+    pixels.resize(system::read_at(pixel_file, pixels.data(), pixels.size(), 0));
     return pixels;
 }
 

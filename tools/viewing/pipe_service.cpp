@@ -1,6 +1,7 @@
 #include "viewing/pipe_service.h"
 
 #include "base/error.h"
+#include "base/system/system.h"
 #include "chain/notices.h"
 #include "chain/take_moments.h"
 #include "harness/history.h"
@@ -14,7 +15,6 @@
 #include "viewing/sequence.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <numeric>
@@ -27,14 +27,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int most_proxy = 1024; // of dof-gather
-
-// Another text after the file was written again or replaced.
-std::string stamp_of(const std::string &path) {
-    struct stat info {};
-    if (::stat(path.c_str(), &info) != 0) return {};
-    return fmt::format("{}:{}:{}:{}:{}:{}", info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec,
-                       info.st_mtim.tv_nsec, info.st_ctim.tv_nsec);
-}
 
 const char *name_of(PixelType type) {
     if (type == PixelType::half) return "half";
@@ -96,7 +88,8 @@ PipeService::Job PipeService::job_of(const PipeRequest &request) const {
         job.words.insert(job.words.end(), {"--proxy", fmt::to_string(proxy)});
         job.command = command_of(job.words, "picture.exr");
     }
-    for (const std::string &file : files_in(job.words)) job.stamps[file] = stamp_of(file);
+    for (const std::string &file : files_in(job.words))
+        job.stamps[file] = system::stamp_of(file).value_or(system::FileStamp{}).state;
     return job;
 }
 

@@ -25,11 +25,12 @@ bool is_authorised(const HttpRequest &request, const std::string &key) {
 HttpAnswer page_answer() {
     const std::string nonce = random_key();
     HttpAnswer answer{.type = "text/html; charset=utf-8"};
-    answer.headers = fmt::format(
-        "Content-Security-Policy: default-src 'none'; script-src 'nonce-{0}'; style-src 'nonce-{0}'; "
-        "connect-src 'self'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
-        "frame-ancestors 'none'\r\n",
-        nonce);
+    answer.headers = {
+        {"Content-Security-Policy",
+         fmt::format("default-src 'none'; script-src 'nonce-{0}'; style-src 'nonce-{0}'; "
+                     "connect-src 'self'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
+                     "frame-ancestors 'none'",
+                     nonce)}};
     std::string page =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>dof-view</title>\n";
     page +=
@@ -85,8 +86,10 @@ void serve(Viewer &viewer, int port, const std::string &key, const std::function
     HttpServer server(
         port, [&](const HttpRequest &request) { return is_authorised(request, key); },
         [&](const HttpRequest &request) { return answer_to(request, routes); },
-        "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
-        "Cross-Origin-Resource-Policy: same-origin\r\n");
+        {{"Cache-Control", "no-store"},
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Cross-Origin-Resource-Policy", "same-origin"}});
     ready(server.port());
     server.run();
 }

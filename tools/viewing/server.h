@@ -1,6 +1,6 @@
 // Serves the viewer to browsers on a port of this machine.
 //
-// Requests must come from the loopback device, name this machine, know the key (access.h) and be small (http_request.h,
+// Requests must come from the loopback device, name this machine, know the key (access.h) and be small (http_server.h,
 // page_request.h). Refused requests get 403, malformed ones 400, and those that a newer one replaces 409.
 #pragma once
 
