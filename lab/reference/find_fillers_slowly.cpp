@@ -25,6 +25,7 @@ using Found = std::optional<Ground>;
 struct Side {
     int distance;
     Ground ground, shown;
+    Imath::V2i on; // the direction
 };
 
 class SlowFillers {
@@ -67,7 +68,7 @@ private:
     Side fill(const Imath::V2i &pixel, const std::vector<Side> &sides, std::vector<Filler> &fillers) const {
         const Side first = *std::ranges::min_element(sides, fills_before);
         if (first.ground.sample && holds(pixel, first.ground.depth)) return first;
-        Filler filler{std::uint32_t(ldi_.windows.index(pixel)), z_of(first.ground), 0, {}};
+        Filler filler{std::uint32_t(ldi_.windows.index(pixel)), z_of(first.ground), 0, {}, false};
         double weights = 0;
         for (const Side &side : sides) {
             if (side.ground.sample.has_value() != first.ground.sample.has_value()) continue;
@@ -77,6 +78,9 @@ private:
                 side.shown.sample ? std::uint32_t(*side.shown.sample) : Filler::nothing,
                 std::uint32_t(ldi_.windows.index(side.shown.pixel)), float(weight / coverage(side.shown))};
             weights += weight;
+            for (const Side &other : sides)
+                filler.is_between |= first.ground.sample && other.on == -side.on && other.ground.sample &&
+                                     std::abs(other.ground.depth - first.ground.depth) < one_surface_px;
         }
         for (Filler::Part &part : filler.part) part.share /= float(weights);
         fillers.push_back(filler);
@@ -129,7 +133,7 @@ private:
         std::vector<Side> sides;
         for (int n = 1; ldi_.windows.data.intersects(pixel - n * on); ++n) {
             const Found from = ground(pixel - n * on);
-            if (from && reaches(*from, on, n)) sides.push_back({n, *from, shown_by(*from, on)});
+            if (from && reaches(*from, on, n)) sides.push_back({n, *from, shown_by(*from, on), on});
         }
         return sides;
     }

@@ -185,6 +185,25 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
     return values;
 }
 
+Rounding rounding_of(const Scene &scene, long double widest, long double extent) {
+    Rounding rounding{extent, 128, 1, 0, 0};
+    while (rounding.lens_unit < widest * 0.999L) rounding.lens_unit *= 2;
+    while (widest > 0 && rounding.lens_unit / 2 >= widest * 0.999L) rounding.lens_unit /= 2;
+    long double coc = 0;
+    for (const auto *some : {&scene.samples, &scene.fillers, &scene.solids})
+        for (const Placed &s : *some) coc = std::max({coc, std::abs(s.coc), std::abs(s.image_coc)});
+    while ((2 * coc * rounding.lens_unit + 38.5L) * rounding.unit > 32767 && rounding.unit > 4)
+        rounding.unit /= 2;
+    const std::size_t numbers = scene.samples.size() + scene.fillers.size();
+    const long double code = 1 / std::exp2(30 - std::floor(std::log2((long double)numbers + 1)) - 0.01L);
+    const auto nearest = scene.samples.empty()
+                             ? 0
+                             : (long double)scene.lens.radius * scene.lens.focal_px / scene.samples.front().z;
+    rounding.depth = code * (nearest + 1);
+    rounding.image = code * (2 * coc * rounding.lens_unit + 3);
+    return rounding;
+}
+
 } // namespace
 
 long double ReferenceValue::off(float other) const {
@@ -210,10 +229,13 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
     long double widest = 0;                    // largest coordinate of them
     for (const LensSample &point : points)
         widest = std::max({widest, (long double)std::abs(point.x), (long double)std::abs(point.y)});
+    const Rounding rounding =
+        rounding_of(scene, widest, (long double)std::max(ldi.windows.width(), ldi.windows.height()));
     parallel_for(pixels, [&](std::size_t i) {
         const Imath::V2i at = picture.windows.pixel(i);
-        const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
-                          holdout};
+        const auto middle = [](int p, int first) { return first + (p - first) / 64 * 64 + 32; };
+        const Pixel pixel{
+            at.x, at.y, {middle(at.x, window.min.x), middle(at.y, window.min.y)}, rounding, holdout};
         const auto values = gather(ldi, near(scene, pixel, widest), by, pixel, unsure[i]);
         for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
     });

@@ -2,7 +2,10 @@
 // formulas of design.md section 1, without this library's kernels. Tests the fast gather.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their CoC,
-// covers that point. It also sees samples through facets (facets.h): a facet counts if its displaced corners surround
+// covers that point. Positions, CoCs, displacements and the point in the pixel are rounded to 1/128 of a pixel, and lens
+// points to 1/32768; if 16 bits cannot hold where the largest CoC moves samples, to 1/64, and so on. Depths are rounded, too:
+// a word of 31 bits has a code of the depth above the number of the sample.
+// It also sees samples through facets (facets.h): a facet counts if its displaced corners surround
 // the point and are more than parted_px apart in x or in y, and shows the corner with the largest weight there
 // (barycentric coordinates). Samples are seen front to back: coverages are independent, and the first opaque sample
 // ends the view. Inside `window`, a pixel that lets light through to infinity has an opaque, colourless, transparent

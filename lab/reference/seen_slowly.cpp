@@ -90,9 +90,44 @@ const Placed *shown_by(const Ldi &ldi, std::span<const Placed> samples, std::uin
     return nearest;
 }
 
+// Disparities, pixels.
+long double depth_of(const ThinLens &lens, long double z) {
+    return (long double)lens.radius * lens.focal_px / z;
+}
+long double depth_of(const ThinLens &lens, const Placed *sample) { return depth_of(lens, sample->z); }
+
+// Whether most of the three by three pixels around a pixel hold the surface of one of its samples.
+bool is_wide_slowly(const Ldi &ldi, const ThinLens &lens, const Imath::V2i &pixel, std::uint64_t sample) {
+    const auto depth = [&](std::uint64_t i) { return depth_of(lens, ldi.z[i]); };
+    int all = 0, same = 0;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
+            if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
+            const SampleRange range = ldi.pixel(ldi.windows.index(Imath::V2i(x, y)));
+            bool holds = false;
+            for (std::uint64_t i = range.from; i < range.to; ++i)
+                holds = holds || std::abs(depth(i) - depth(sample)) < one_surface_px;
+            ++all;
+            same += holds;
+        }
+    return 2 * same > all;
+}
+
 // The solids behind samples, sorted by the depth from which they hide things.
-std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Placed> samples) {
+std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Placed> samples,
+                                 std::span<const Placed> fillers) {
     std::vector<Placed> placed;
+    for (const Placed &f : fillers) {
+        const Filler::Part &part = f.filler->part[0];
+        if (!f.filler->is_between || !is_wide_slowly(ldi, lens, ldi.windows.pixel(part.pixel), part.sample))
+            continue;
+        const auto shown = std::ranges::find_if(
+            samples, [&](const Placed &s) { return !s.background && s.source == part.sample; });
+        if (shown->alpha < 1 || shown->is_image()) continue;
+        const long double hides = std::max(depth_of(lens, &f) - one_surface_px, 0.0L);
+        placed.push_back({f.x, f.y, f.coc, (long double)lens.radius * lens.focal_px / hides, 1, shown->source,
+                          false, nullptr, f.coc, &*shown});
+    }
     for (const Placed &s : samples) {
         if (s.background || ldi.solid.empty() || !(ldi.solid[s.source] > 0)) continue;
         const long double solid = ldi.solid[s.source], hides = 1 / s.z - 2 * solid;
@@ -108,9 +143,24 @@ std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span
     return placed;
 }
 
-// The margin of one coordinate of a sample's square.
-Margin margin(long double sample, long double displaced, long double looked_at, long double extent) {
-    return {0.5L - std::abs(sample + displaced - looked_at), 5e-7L * extent + 1e-6L * std::abs(displaced)};
+// Rounds as the gather does. It adds 32768.5 in float, and the sum's own rounding takes some values below a half upwards.
+long double whole(long double exact) { return std::floor((long double)(float(exact) + 32768.5f)) - 32768; }
+
+// The margin of one coordinate of a sample's square, from the pixel that a lens point looks at. `looks`: from where in
+// the pixel.
+Margin margin(long double sample, long double coc, long double lens, long double looks, int pixel, int middle,
+              const Rounding &by) {
+    const long double coc_units = coc * by.lens_unit * by.unit, place = (sample - middle) * by.unit,
+                      lens_units = std::clamp(whole(lens / by.lens_unit * 32768), -32767.0L, 32767.0L),
+                      moved = std::floor(whole(coc_units) * lens_units / 32768 + 0.5L),
+                      seen = whole(place) + moved + std::floor(looks * by.unit) - (pixel - middle) * by.unit;
+    const auto is_unsure = [](long double exact, long double off) {
+        return whole(exact - off) != whole(exact + off);
+    };
+    // Units by which rounding in float may move the sample.
+    const int unsure =
+        is_unsure(coc_units, 1.2e-7L * std::abs(coc_units)) + is_unsure(place, 1.2e-7L * by.extent * by.unit);
+    return {(by.unit / 2 - std::abs(seen + 0.5L - by.unit / 2)) / by.unit, (unsure + 0.25L) / by.unit};
 }
 
 long double passes(const Placed &s, const Pixel &pixel) {
@@ -119,29 +169,36 @@ long double passes(const Placed &s, const Pixel &pixel) {
 }
 
 // Whether the lens point sees the sample in its unit square, and whether rounding matters.
-Cover covers(const Placed &s, const LensSample &point, const Imath::Vec2<long double> &at,
-             long double extent) {
-    const Margin across = margin(s.x, s.coc * (long double)point.x, at.x, extent);
-    const Margin down = margin(s.y, s.coc * (long double)point.y, at.y, extent);
+Cover covers(const Placed &s, const LensSample &point, const Pixel &pixel) {
+    const Margin across = margin(s.x, s.coc, point.x, point.pixel_x, pixel.x, pixel.middle.x, pixel.rounding);
+    const Margin down = margin(s.y, s.coc, point.y, point.pixel_y, pixel.y, pixel.middle.y, pixel.rounding);
     if (across.outside() || down.outside()) return {};
     return {true, across.inside > 0 && down.inside > 0, across.sure() && down.sure()};
 }
 
 // The samples that the lens point meets in the pixel, front to back, up to the first that certainly hides the rest.
-void meet(std::span<const Placed> samples, std::span<const std::array<std::size_t, 3>> facets,
-          const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
+void meet(const ThinLens &lens, std::span<const Placed> samples,
+          std::span<const std::array<std::size_t, 3>> facets, const LensSample &point, const Pixel &pixel,
+          std::vector<Met> &met) {
     met.clear();
+    const Placed *hides = nullptr; // what certainly hides all that is farther
     const Imath::Vec2<long double> at(pixel.x + 0.5L - (long double)point.pixel_x,
                                       pixel.y + 0.5L - (long double)point.pixel_y);
     std::vector<Cover> by_facets;
-    cover_by_facets(samples, facets, point, at, pixel.extent, by_facets);
+    cover_by_facets(samples, facets, point, at, pixel.rounding.extent, by_facets);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Placed &s = samples[i];
-        Cover cover = covers(s, point, at, pixel.extent);
+        if (hides && s.z == hides->z) continue;
+        if (hides && depth_of(lens, hides) - depth_of(lens, &s) >= pixel.rounding.depth) return;
+        Cover cover = covers(s, point, pixel);
         if (!by_facets.empty()) cover.add(by_facets[i]);
         if (!cover.possible) continue;
+        for (Met &m : met) // the order of two opaque samples may be the other one
+            if (s.alpha == 1 && m.sample->alpha == 1 && m.sample->z < s.z &&
+                depth_of(lens, m.sample) - depth_of(lens, &s) < pixel.rounding.depth)
+                m.sure = false;
         met.push_back({&s, cover.seen, cover.sure, passes(s, pixel)});
-        if (cover.sure && s.alpha == 1) return;
+        if (cover.sure && s.alpha == 1 && !hides) hides = &s;
     }
 }
 
@@ -169,7 +226,7 @@ Choice front_of(std::span<const Met> met) {
 void add_solids(const Scene &scene, const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
     if (scene.solids.empty()) return;
     std::vector<Met> solids;
-    meet(scene.solids, {}, point, pixel, solids);
+    meet(scene.lens, scene.solids, {}, point, pixel, solids);
     for (const Met &solid : solids) {
         const auto behind =
             std::ranges::find_if(met, [&](const Met &m) { return m.sample->z > solid.sample->z; });
@@ -198,16 +255,13 @@ using Around = std::array<Choice, 8>;
 Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     const auto front_beside = [&](int dx, int dy) {
         std::vector<Met> met;
-        meet(scene.samples, scene.facets, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
-        add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
+        meet(scene.lens, scene.samples, scene.facets, point,
+             {pixel.x + dx, pixel.y + dy, pixel.middle, pixel.rounding, nullptr}, met);
+        add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.middle, pixel.rounding, nullptr}, met);
         return front_of(met);
     };
     return {front_beside(-1, 0), front_beside(1, 0),  front_beside(0, -1),  front_beside(0, 1),
             front_beside(1, -1), front_beside(-1, 1), front_beside(-1, -1), front_beside(1, 1)};
-}
-
-long double depth_of(const ThinLens &lens, const Placed *sample) {
-    return (long double)lens.radius * lens.focal_px / sample->z;
 }
 
 const Placed *farther(const Placed *first, const Placed *second) {
@@ -249,14 +303,14 @@ Choice screen_between(const Around &around) {
 
 // The nearest image in a pixel.
 Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel, int dx, int dy) {
-    const long double x = pixel.x + dx + 0.5L - (long double)point.pixel_x,
-                      y = pixel.y + dy + 0.5L - (long double)point.pixel_y;
     Choice nearest;
     std::vector<const Placed *> sure;
     for (const Placed &s : scene.samples) {
         if (!s.is_image()) continue;
-        const Margin across = margin(s.x, s.image_coc * (long double)point.x, x, pixel.extent),
-                     down = margin(s.y, s.image_coc * (long double)point.y, y, pixel.extent);
+        const Margin across = margin(s.x, s.image_coc, point.x, point.pixel_x, pixel.x + dx, pixel.middle.x,
+                                     pixel.rounding),
+                     down = margin(s.y, s.image_coc, point.y, point.pixel_y, pixel.y + dy, pixel.middle.y,
+                                   pixel.rounding);
         if (across.outside() || down.outside()) continue;
         nearest.can_be.push_back(&s);
         if (across.inside > across.unclear && down.inside > down.unclear) sure.push_back(&s);
@@ -267,7 +321,9 @@ Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel,
     if (first == sure.end())
         nearest.can_be.push_back(nullptr);
     else
-        std::erase_if(nearest.can_be, [&](const Placed *s) { return s->image_coc > (*first)->image_coc; });
+        std::erase_if(nearest.can_be, [&](const Placed *s) {
+            return s->image_coc > (*first)->image_coc + pixel.rounding.image;
+        });
     return nearest;
 }
 
@@ -336,7 +392,7 @@ void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, b
                       const Around &around, const LensSample &point, const Pixel &pixel) {
     const Choice torn = torn_between(scene.lens, around, nullptr), screen = screen_between(around);
     std::vector<Met> met;
-    meet(scene.fillers, {}, point, pixel, met);
+    meet(scene.lens, scene.fillers, {}, point, pixel, met);
     const Choice filler = front_of(met);
     const auto add_filler = [&](const Placed *f, const Placed *before) {
         const bool hidden =
@@ -378,7 +434,7 @@ Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                   std::span<const Filler> fillers) {
     Scene scene{lens, place_samples(ldi, lens, window), place_fillers(ldi, lens, fillers), {}, {}};
     scene.facets = place_facets_slowly(ldi, lens, scene.samples);
-    scene.solids = place_solids(ldi, lens, scene.samples);
+    scene.solids = place_solids(ldi, lens, scene.samples, scene.fillers);
     return scene;
 }
 
@@ -422,7 +478,7 @@ Scene near(const Scene &scene, const Pixel &pixel, long double widest) {
 
 std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     std::vector<Met> met, partial;
-    meet(scene.samples, scene.facets, point, pixel, met);
+    meet(scene.lens, scene.samples, scene.facets, point, pixel, met);
     const Choice front = front_of(met);
     std::ranges::copy_if(met, std::back_inserter(partial), [](const Met &m) { return m.sample->alpha < 1; });
     add_solids(scene, point, pixel, met);

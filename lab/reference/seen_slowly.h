@@ -38,9 +38,19 @@ struct Scene {
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers);
 
+// The whole numbers in which the gather counts where samples are seen (lens_gather_reference.h).
+struct Rounding {
+    long double extent; // the largest coordinate in use; a float resolves positions to about 1e-7 of it
+    long double unit,
+        lens_unit; // units in a pixel; CoCs are multiplied by the other, and lens points divided
+    // pixels: opaque samples may be seen in either order if their disparities, or the CoCs of images, differ by less
+    long double depth, image;
+};
+
 struct Pixel {
     int x, y;
-    long double extent; // the largest coordinate in use; a float resolves positions to about 1e-7 of it
+    Imath::V2i middle; // of its tile, from which places are counted
+    Rounding rounding;
     const Holdout *holdout;
 };
 

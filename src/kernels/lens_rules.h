@@ -8,32 +8,57 @@
 
 namespace sparselens::kernels {
 
-// Keys of samples. A nearer sample has a greater key. The upper half is background_upper, or it encodes the disparity,
-// which is at least 0. The lower half is the index of the sample. 0: no sample.
+// The order of samples in a cell. Samples store `upper`: background_upper, or the bits of their disparity, which is at
+// least 0, plus 2.
 inline constexpr uint background_upper = 1;
 inline uint upper_of_depth(float depth) { return floatBitsToUint(depth) + 2; }
 // 0 for a background, and for no sample.
 inline float depth_of(uint upper) { return uintBitsToFloat(max(upper, 2u) - 2); }
-inline uint64_t key_of(uint upper, uint index) { return (uint64_t(upper) << 32) | uint64_t(index); }
-inline uint upper_of(uint64_t key) { return uint(key >> 32); }
-inline uint sample_of(uint64_t key) { return uint(key & 0xffffffffUL); }
 
-// Returns where a lens point sees a sample along one axis, in pixels from the corner of a tile's cells. The sample lies
-// at `at`, and moves by `coc` times `lens`. The corner is subtracted first, so that far from the picture's corner
-// nothing is rounded more than near it.
+// A tile counts what its lens points see in whole numbers, so all processors find the same.
+struct TileUnits {
+    float unit;        // units in a pixel; a power of two
+    float lens_unit;   // CoCs are multiplied by it, and lens points divided; a power of two
+    float farthest;    // pixels: no sample is moved farther
+    float nearest;     // pixels: the greatest disparity
+    float codes;       // depth codes in a pixel of disparity
+    float image_codes; // codes of images in a pixel of CoC
+};
+
+// The code of a depth: greater if it is nearer. 0: no sample; 1: a background.
+inline uint depth_code(uint upper, float nearest, float codes) {
+    return upper <= background_upper ? upper : 2 + uint(int(min(depth_of(upper), nearest) * codes));
+}
+// The code of an image in a mirror or glass, greater if its CoC is smaller. `most`: the largest CoC.
+inline uint image_code(float coc, float most, float image_codes) {
+    return 1 + uint(int((most - (coc < -most ? -most : coc < most ? coc : most)) * image_codes));
+}
+
+// Rounds to a whole number of 16 bits, without a call.
+inline int whole(float value, float most) {
+    return int((value < -most ? -most : value < most ? value : most) + 32768.5f) - 32768;
+}
+// These round, along one axis, the place of a sample, in units from the middle of a tile, its CoC, and a lens point. Places
+// have bounds: a sample on a bound is too far away for any lens point to bring it into the tile.
+inline constexpr float around_tile_px = 37; // half a tile, the cells around it, and rounding
+inline int whole_place(float at, float middle, float unit, float farthest) {
+    return whole((at - middle) * unit, (farthest + around_tile_px) * unit);
+}
+inline int whole_coc(float coc, float coc_unit, float most) { return whole(coc * coc_unit, most); }
+inline int whole_lens(float lens, float lens_unit) { return whole(lens / lens_unit * 32768, 32767); }
+// Rounds downwards. A sum of whole numbers then lies in the cell of the exact sum on average, and in focus always.
+inline int whole_shift(float shift, float unit, float farthest) {
+    return whole(floor(shift * unit), farthest * unit);
+}
+inline int moved(int coc, int lens) { return ((coc * lens >> 14) + 1) >> 1; }
+
+// Returns where a lens point sees a corner of a facet along one axis, in pixels from the corner of a tile's cells. The
+// sample lies at `at`, and moves by `coc` times `lens`. `shift`: the point of the pixel that the lens point looks
+// through, plus shift_of_facets, because facets are drawn where the middles of cells lie, and cells begin with one cell
+// of border. The corner is subtracted first, so that far from the picture's corner nothing is rounded more than near it.
+inline constexpr float shift_of_facets = 0.5f;
 inline float seen_along(float at, float corner, float coc, float lens, float shift) {
     return (at - corner) + (coc * lens + shift);
-}
-// `shift` is the point of the pixel that the lens point looks through, plus one of the following: cells begin with one
-// cell of border; a sample is a square of one pixel, while facets are drawn where the middles of cells lie.
-inline constexpr float shift_of_samples = 1;
-inline constexpr float shift_of_facets = 0.5f;
-
-// Returns the cell of a sample, not rounded; outside, the first or the last cell. The bounds are applied one after the
-// other, so that each is one instruction.
-inline float cell_along(float seen, float last) {
-    const float from_first = seen > 0 ? seen : 0;
-    return from_first < last ? from_first : last;
 }
 
 // Pixels. A facet whose corners a lens point sees no farther apart than this, in x and in y, is not drawn, because the
@@ -64,16 +89,15 @@ inline bool is_crack(float x, float y, float depth_a, float depth_b) {
 }
 
 // A crack lies between two samples, in front of something that is farther than both by more than this, in pixels of
-// disparity. The unevenness of their surface never reaches that. `shown`: the upper half of the key that a cell
-// shows; 0: it shows nothing. A crack may lie in front of the cell if samples on two sides of it have greater upper
-// halves than the result.
+// disparity. The unevenness of their surface never reaches that. `shown`: the depth code that a cell shows. A crack may
+// lie in front of the cell if samples on two sides of it have greater codes than the result.
 inline constexpr float behind_crack_px = 1;
-inline uint behind_crack(uint shown) {
-    return shown == 0 ? background_upper : upper_of_depth(depth_of(shown) + behind_crack_px);
+inline uint behind_crack(uint shown, float codes) {
+    return shown == 0 ? background_upper : shown + uint(int(behind_crack_px * codes));
 }
 
-// The upper half of the key of a sample that hides a filler of this depth is greater than the result.
-inline uint behind_upper(float depth) { return upper_of_depth(depth + one_surface_px); }
+// The code of a sample that hides a filler of this code is greater than the result.
+inline uint behind_filler(uint code, float codes) { return code + uint(int(one_surface_px * codes)); }
 
 // Whether an image in a mirror or glass is seen where their surface is.
 inline bool is_in_mirror(float image_depth, float depth) {
@@ -127,7 +151,7 @@ namespace sparselens::lens_kernel {
 
 // The data that the CPU lays out for the lens gather on a device, and how the device divides it (gpu/lens).
 
-using kernels::uint;
+using kernels::uint, kernels::TileUnits;
 
 inline constexpr uint none = 0xffffffffu;
 inline constexpr int tile_size = 64; // pixels a tile is wide and high
@@ -145,7 +169,7 @@ inline constexpr uint wide = 4;    // columns of pixels in which a thread looks 
 // From one row of pixels to the next, owners (tile_data.glsl) are shifted by this many columns, so that several threads
 // share the pixels of an upright object.
 inline constexpr uint turn = 11;
-// A bit of the upper halves of keys, which are smaller without it: set for all samples but fillers.
+// A bit of words and of the upper halves of samples: set for all samples but fillers.
 inline constexpr uint hiding = 0x80000000u;
 static_assert(tile_size == 2 * size);
 
@@ -178,8 +202,13 @@ struct Tile {
     // where the columns begin that say which pixels see through a lens point
     uint columns;
     uint holdout; // where the tile's parts of the holdout begin
+    // where its runs of numbers begin among the lists of blocks, and how many there are: the first sample of each, and
+    // its number; and where the sample of each number is
+    uint runs, run_count, numbers;
+    uint number_bits; // of a word
+    TileUnits units;
 };
-static_assert(sizeof(Tile) == 96 && offsetof(Tile, lens) == 60 && offsetof(Tile, holdout) == 92);
+static_assert(sizeof(Tile) == 136 && offsetof(Tile, lens) == 60 && offsetof(Tile, units) == 112);
 
 // Lens points weigh differently for colours or for sides of the focus, or not all pixels see through them.
 inline constexpr uint weighted = 1;

@@ -18,7 +18,8 @@ dof/gather_rows.cpp beside most rows_at_once
 dof/border_reach.cpp rows_at_once
 dof/lens/tile_plan.cpp blocks_in_run
 dof/lens/highlights.h cell octaves
-dof/lens/visibility.cpp half
+dof/lens/cell_rows.cpp half
+dof/lens/cell_rows.h points_at_once
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/block_footprints.cpp in_area
@@ -30,9 +31,10 @@ dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
 dof/lens/tile_plan.h final_points largest_coc normal_points
 dof/lens/lens_gather.h lens_tile_size
-dof/lens/accumulator.h sides
 dof/lens/sample_blocks.h background size
-dof/lens/tile_projection.cpp rounding
+dof/lens/tile_projection.cpp least_unit most
+dof/lens/tile_projection.h lanes
+dof/lens/tile_samples.cpp most_depth
 dof/methods.cpp ids_at_once
 dof/merge_layers.h layer_tolerance_px
 dof/selective/splats.h sums_before_colours

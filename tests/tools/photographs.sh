@@ -72,7 +72,7 @@ within "$(psnr by-quarter.png out.png)" "$(psnr by-enlarged.png out.png)" -0.5 "
 # Any format will do.
 oiiotool exact8.png -o depth.pgm
 for depth in exact8.png depth.pgm; do exits 0 "$bin/dof-gather" photo.jpg --depth-file $depth --blur 6 --focus-pixel 160,120 -o ${depth#*.}.exr; done
-picture same pgm.exr png.exr R,G,B 0 || fail "depth.pgm: another picture"
+picture same pgm.exr png.exr R,G,B 5e-4 || fail "depth.pgm: another picture" # depths differ in their last bit
 
 # One line for each mistake.
 oiiotool depth8.png --resize 160x90 -o small.png

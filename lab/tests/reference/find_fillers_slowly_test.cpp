@@ -19,6 +19,7 @@ void expect_slow(const Ldi &ldi, const Imath::Box2i &known) {
         ASSERT_EQ(found[i].pixel, slow[i].pixel);
         ASSERT_EQ(found[i].z, slow[i].z) << found[i].pixel;
         ASSERT_EQ(found[i].count, slow[i].count) << found[i].pixel;
+        ASSERT_EQ(found[i].is_between, slow[i].is_between) << found[i].pixel;
         for (std::uint32_t k = 0; k < slow[i].count; ++k) {
             const Filler::Part &part = found[i].part[k], &by_slow = slow[i].part[k];
             ASSERT_EQ(part.sample, by_slow.sample) << found[i].pixel;

@@ -100,8 +100,8 @@ void project(const Corners &corners, const LensSample &lens, const FacetGrid &gr
     }
 }
 
-void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64_t, 3> &key, int stride,
-                   std::span<std::uint64_t> cells) {
+void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::int32_t, 3> &words, int stride,
+                   std::span<std::int32_t> cells) {
     const float x0 = seen.x.at[0][i], x1 = seen.x.at[1][i], x2 = seen.x.at[2][i];
     const float y0 = seen.y.at[0][i], y1 = seen.y.at[1][i], y2 = seen.y.at[2][i];
     const float side = kernels::twice_area(x0, y0, x1, y1, x2, y2) < 0 ? -1.0f : 1.0f; // seen from behind: -1
@@ -112,9 +112,9 @@ void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64
             const float a = side * kernels::twice_area(x1, y1, x2, y2, x, y);
             const float b = side * kernels::twice_area(x2, y2, x0, y0, x, y);
             const float c = side * kernels::twice_area(x0, y0, x1, y1, x, y);
-            const std::uint64_t nearest = key[kernels::nearest_corner(a, b, c)];
+            const std::int32_t nearest = words[kernels::nearest_corner(a, b, c)];
             const bool inside = int(a >= 0) & int(b >= 0) & int(c >= 0); // branch-free: unpredictable
-            std::uint64_t &cell = cells[std::size_t(row * stride + column)];
+            std::int32_t &cell = cells[std::size_t(row * stride + column)];
             cell = std::max(cell, nearest * inside);
         }
 }
@@ -132,7 +132,7 @@ PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, con
     }
     for (auto *along : {&placed.x, &placed.y, &placed.coc})
         for (LargeArray<float> &values : *along) values.resize(count);
-    for (LargeArray<std::uint64_t> &keys : placed.key) keys.resize(count);
+    for (LargeArray<std::uint32_t> &samples : placed.sample) samples.resize(count);
     const std::vector<std::uint32_t> places = places_of(ldi_samples, corners.source);
     parallel_for(placed.blocks.size(), [&](std::size_t b) {
         FacetBlock &block = placed.blocks[b];
@@ -142,7 +142,7 @@ PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, con
                 placed.x[k][f] = corners.x[i];
                 placed.y[k][f] = corners.y[i];
                 placed.coc[k][f] = corners.coc[i];
-                placed.key[k][f] = kernels::key_of(corners.upper[i], i);
+                placed.sample[k][f] = i;
             }
             widen(block, placed, f);
         }
@@ -164,11 +164,14 @@ void find_blocks(const PlacedFacets &facets, const Imath::V2i &origin, int size,
     }
 }
 
-void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks, const LensSample &lens,
-                 const FacetGrid &grid, std::span<std::uint64_t> cells) {
+void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks,
+                 std::span<const std::array<std::int32_t, 3>> words, const LensSample &lens,
+                 const FacetGrid &grid, std::span<std::int32_t> cells) {
     Seen seen;
     for (const std::uint32_t b : blocks) {
         const FacetBlock &block = facets.blocks[b];
+        const auto of_block = words.first(block.end - block.begin);
+        words = words.subspan(of_block.size());
         if (out_of_reach(block, lens, grid)) continue;
         for (std::size_t begin = block.begin; begin < block.end; begin += at_once) {
             const std::size_t count = std::min(at_once, block.end - begin);
@@ -185,9 +188,7 @@ void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> bloc
                 drawn += std::size_t(seen.drawn[i]);
             }
             for (const std::uint32_t i : std::span(seen.list).first(drawn))
-                draw_triangle(seen, i,
-                              {facets.key[0][begin + i], facets.key[1][begin + i], facets.key[2][begin + i]},
-                              grid.stride, cells);
+                draw_triangle(seen, i, of_block[begin - block.begin + i], grid.stride, cells);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Draws facets, as a lens point sees them, into a grid of cells. Each cell keeps the greatest key.
+// Draws facets, as a lens point sees them, into a grid of cells. Each cell keeps the greatest word.
 #pragma once
 
 #include "base/image.h"
@@ -17,15 +17,14 @@ struct FacetBlock {
 
 struct PlacedFacets {
     // [corner][facet]
-    std::array<LargeArray<float>, 3> x, y, coc;   // of the facet's samples, pixels, in the picture
-    std::array<LargeArray<std::uint64_t>, 3> key; // nearer is greater
+    std::array<LargeArray<float>, 3> x, y, coc; // of the facet's samples, pixels, in the picture
+    std::array<LargeArray<std::uint32_t>, 3> sample;
     std::vector<FacetBlock> blocks;
 };
 
 // The samples at the corners of facets.
 struct FacetCorners {
     std::span<const float> x, y, coc;
-    std::span<const std::uint32_t> upper; // upper half of their keys; the lower half is their index here
     // Index into the LDI's samples; an index beyond their number is none of them.
     std::span<const std::uint32_t> source;
 };
@@ -44,8 +43,9 @@ struct FacetGrid {
     int stride, last;
 };
 
-// Draws the facets of some blocks where the lens point sees them.
-void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks, const LensSample &lens,
-                 const FacetGrid &grid, std::span<std::uint64_t> cells);
+// Draws the facets of some blocks where the lens point sees them. `words`: of the corners of each of these facets.
+void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks,
+                 std::span<const std::array<std::int32_t, 3>> words, const LensSample &lens,
+                 const FacetGrid &grid, std::span<std::int32_t> cells);
 
 } // namespace sparselens

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -39,6 +40,7 @@ struct Side {
     Ground ground;
     std::size_t shown; // the pixel whose ground it shows
     int distance;
+    std::size_t direction;
     auto order() const { return std::tuple(distance, ground.depth, ground.is_nothing()); }
 };
 
@@ -79,7 +81,7 @@ private:
         for (std::size_t k = 0; k < directions; ++k) {
             const std::size_t end = pixel - distances[k] * step(k);
             if (distances[k] > 0 && depth - grounds_[end].depth > one_surface_px)
-                sides[count++] = {grounds_[end], is_mixed(end, k) ? end - step(k) : end, distances[k]};
+                sides[count++] = {grounds_[end], is_mixed(end, k) ? end - step(k) : end, distances[k], k};
         }
         return std::span(sides).first(count);
     }
@@ -155,17 +157,20 @@ private:
     }
     Filler mean_of(std::size_t pixel, const Side &nearest, std::span<const Side> all) const {
         const bool nothing = nearest.ground.is_nothing();
-        Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
+        Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}, false};
         if (!nothing) filler.z = ldi_.z[nearest.ground.sample];
         float sum = 0;
-        for (const auto &[ground, shown, distance] : all) {
+        std::array<bool, directions> ends{};
+        for (const auto &[ground, shown, distance, direction] : all) {
             if (ground.is_nothing() != nothing) continue;
             if (!is_one_surface(ground.depth, nearest.ground.depth)) continue;
             const std::uint32_t sample = grounds_[shown].sample;
             const float weight = 1 / float(distance), coverage = nothing ? 1 : alpha_at(ldi_, alpha_, sample);
             filler.part[filler.count++] = {sample, std::uint32_t(shown), weight / coverage};
             sum += weight;
+            ends[direction] = true;
         }
+        filler.is_between = !nothing && ((ends[0] && ends[1]) || (ends[2] && ends[3]));
         for (Filler::Part &part : filler.part) part.share /= sum;
         return filler;
     }
@@ -201,20 +206,43 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
 
 namespace {
 
+PlacedSample filler_at(const ThinLens &lens, const Position &at, const Filler &filler, std::uint32_t source) {
+    const double z = double(filler.z);
+    return {float(at.column) + 0.5f,
+            float(at.row) + 0.5f,
+            float(circle_of_confusion(lens, z)),
+            float(disparity(lens, z)),
+            1,
+            source};
+}
+
+// The fillers of each pixel.
+class FillersOfPixels {
+public:
+    FillersOfPixels(const Ldi &ldi, std::span<const Filler> fillers)
+        : fillers_(fillers), begin_(ldi.windows.pixels() + 1) {
+        for (const Filler &filler : fillers) ++begin_[filler.pixel + 1];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    }
+    std::span<const Filler> at(std::size_t pixel) const {
+        return fillers_.subspan(begin_[pixel], begin_[pixel + 1] - begin_[pixel]);
+    }
+
+private:
+    std::span<const Filler> fillers_;
+    std::vector<std::uint32_t> begin_; // [pixel], and the end
+};
+
 // Places the fillers for which is_placed(number) is true; `source` is the number.
 template <typename IsPlaced>
 BlockedSamples placed(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                      const IsPlaced &is_placed) {
-    std::vector<std::uint32_t> first(ldi.windows.pixels(), std::uint32_t(fillers.size())); // of each pixel
-    for (std::size_t f = fillers.size(); f-- > 0;) first[fillers[f].pixel] = std::uint32_t(f);
+                      const FillersOfPixels &of_pixels, const IsPlaced &is_placed) {
     return make_blocks(ldi.windows, [&](const Position &at, std::vector<PlacedSample> &found) {
-        const std::size_t pixel = ldi.windows.index(at);
-        for (std::uint32_t f = first[pixel]; f < fillers.size() && fillers[f].pixel == pixel; ++f) {
-            if (!is_placed(f)) continue;
-            const double z = double(fillers[f].z);
-            found.push_back({float(at.column) + 0.5f, float(at.row) + 0.5f,
-                             float(circle_of_confusion(lens, z)), float(disparity(lens, z)), 1,
-                             fillers[f].is_nothing() ? BlockedSamples::background : f});
+        for (const Filler &filler : of_pixels.at(ldi.windows.index(at))) {
+            const auto f = std::uint32_t(&filler - fillers.data());
+            if (is_placed(f))
+                found.push_back(
+                    filler_at(lens, at, filler, filler.is_nothing() ? BlockedSamples::background : f));
         }
     });
 }
@@ -248,7 +276,8 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
                             const BlockedSamples &samples, const SampleColours &colours,
                             const std::optional<std::span<const std::uint32_t>> &highlights) {
     if (fillers.empty()) return {};
-    FillerSamples result{placed(ldi, lens, fillers, [](std::uint32_t) { return true; }), {}, {}};
+    const FillersOfPixels of_pixels(ldi, fillers);
+    FillerSamples result{placed(ldi, lens, fillers, of_pixels, [](std::uint32_t) { return true; }), {}, {}};
     const std::size_t count = result.samples.count();
     result.colours = {colours.groups, count, LargeArray<float>(colours.groups * count * 4, 0.0f)};
     const auto place = [&](const Filler::Part &part) {
@@ -275,7 +304,7 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
             hides[f] = !fillers[f].is_nothing() && std::ranges::any_of(fillers[f].parts(), hides_lamps);
     });
     BlockedSamples &hiding = result.hiding =
-        placed(ldi, lens, fillers, [&](std::uint32_t f) { return hides[f]; });
+        placed(ldi, lens, fillers, of_pixels, [&](std::uint32_t f) { return hides[f]; });
     hiding.named.resize(hiding.count());
     parallel_ranges(hiding.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
@@ -287,8 +316,10 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
     return result;
 }
 
-BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples) {
-    if (ldi.solid.empty()) return {};
+BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
+                            const BlockedSamples &samples) {
+    if (ldi.solid.empty() && std::ranges::none_of(fillers, &Filler::is_between)) return {};
+    const FillersOfPixels of_pixels(ldi, fillers);
     const std::size_t alpha = ldi.alpha();
     const auto hides = [&](std::uint64_t i) { return is_opaque(alpha_at(ldi, alpha, i)); };
     const auto may_show = [&](std::uint64_t i) { return hides(i) && ldi.coc_z(i) == double(ldi.z[i]); };
@@ -309,8 +340,18 @@ BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedS
     };
     const auto place = [&](const Position &at, std::vector<PlacedSample> &placed) {
         const std::size_t pixel = ldi.windows.index(at);
+        for (const Filler &filler : of_pixels.at(pixel)) {
+            const Filler::Part &shown = filler.part[0];
+            if (!filler.is_between || !may_show(shown.sample) ||
+                !is_wide(ldi, lens, shown.pixel, shown.sample))
+                continue;
+            PlacedSample &solid =
+                placed.emplace_back(filler_at(lens, at, filler, std::uint32_t(ldi.pixel(pixel).front())));
+            solid.depth = std::max(solid.depth - one_surface_px, 0.0f);
+            solid.named = place_of(samples, ldi, shown.pixel, shown.sample);
+        }
         for (const std::uint64_t i : ldi.pixel(pixel)) {
-            if (!(ldi.solid[i] > 0)) continue;
+            if (ldi.solid.empty() || !(ldi.solid[i] > 0)) continue;
             const MergedSample s = sample_at(ldi, i);
             const double back = 1 / double(s.z) - double(s.solid),
                          hidden = 1 / double(s.z) - 2 * double(s.solid);

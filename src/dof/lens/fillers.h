@@ -42,6 +42,7 @@ struct Filler {
     float z;             // scene units
     std::uint32_t count; // of parts, 1 to 4
     std::array<Part, 4> part;
+    bool is_between; // whether its surface ends on two opposite sides
 
     std::span<const Part> parts() const { return std::span(part).first(count); }
     bool is_nothing() const { return part[0].sample == nothing; }
@@ -83,9 +84,13 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
 // opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;
 // without such a sample there is no solid. Mirrors and glass, which show images, are not solid.
 
+// A filler between two opposite ends of one surface is solid, too, if that surface is as wide as one that hides lamps: it
+// hides what is farther by more than one_surface_px, and shows one of the ends.
+
 // Returns the solids in the blocks of the LDI's `samples`, before looks move them (gather_scene.h); no blocks if
 // nothing is solid. Their CoC says where solids are seen. Their depth is the depth from which on they hide what is
 // farther.
-BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
+BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
+                            const BlockedSamples &samples);
 
 } // namespace sparselens

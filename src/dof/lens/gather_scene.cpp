@@ -81,14 +81,14 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     scene.colours = make_colours(ldi, samples);
     std::optional<std::span<const std::uint32_t>> highlights;
     if (treat()) highlights = scene.highlights.sample;
-    scene.solids = place_solids(ldi, scene.lens, samples);
+    scene.solids = place_solids(ldi, scene.lens, fillers, samples);
     scene.fillers =
         place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours, highlights);
     for (BlockedSamples *some : {&scene.solids, &scene.fillers.samples, &scene.fillers.hiding})
         optics.bend(*some);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
-                                {samples.x, samples.y, samples.hiding_coc(), samples.upper, samples.source});
+                                {samples.x, samples.y, samples.hiding_coc(), samples.source});
 }
 
 // The share of each sample's light that highlights leave; empty: all of it.

@@ -207,15 +207,6 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
 
 namespace {
 
-template <typename Light>
-void gather_by(const GatherScene &scene, const TileTask &tile,
-               const std::function<void(const TilePicture &)> &done) {
-    VisibilityPass visibility(scene, tile);
-    Accumulator<Light> sums(scene, visibility.seen());
-    for (const LensSample &point : tile.lens) sums.add(visibility.through(point), point);
-    done(sums.picture());
-}
-
 // Whether any sample of some blocks may lie in front of focus.
 bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32_t> blocks) {
     return std::ranges::any_of(blocks, [&](std::uint32_t b) {
@@ -228,15 +219,12 @@ bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32
 void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done) {
     const bool rims = std::ranges::any_of(tile.lens, &LensSample::has_rims);
-    const bool coloured =
-        std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.rgb != no_factors; });
-    if (rims && (reaches_in_front(scene.samples, tile.samples) ||
-                 reaches_in_front(scene.fillers.samples, tile.fillers)))
-        gather_by<ChannelWeights<2>>(scene, tile, done);
-    else if (rims || coloured || scene.cat_eye())
-        gather_by<ChannelWeights<1>>(scene, tile, done);
-    else
-        gather_by<UniformWeights>(scene, tile, done);
+    const bool two_sided = rims && (reaches_in_front(scene.samples, tile.samples) ||
+                                    reaches_in_front(scene.fillers.samples, tile.fillers));
+    VisibilityPass visibility(scene, tile);
+    Accumulator sums(scene, visibility.samples(), tile.origin, two_sided);
+    for (const LensSample &point : tile.lens) sums.add(visibility.through(point), point);
+    done(sums.picture());
 }
 
 } // namespace sparselens

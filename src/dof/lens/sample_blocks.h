@@ -65,8 +65,8 @@ struct BlockedSamples {
     // images.
     LargeArray<float> surface_coc;
     LargeArray<float> alpha;         // coverage, (0, 1]
-    LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    // The sample that a filler or solid (fillers.h) shows, for the lower half of its key. Empty: each shows itself.
+    LargeArray<std::uint32_t> upper; // says the depth (kernels/lens_rules.h)
+    // The sample that a filler or solid (fillers.h) shows. Empty: each shows itself.
     LargeArray<std::uint32_t> named;
     LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
@@ -78,10 +78,6 @@ struct BlockedSamples {
     std::size_t count() const { return x.size(); }
     // Disparity, pixels: larger is nearer.
     float depth(std::size_t i) const { return kernels::depth_of(upper[i]); }
-    // Nearer is greater, no two are equal. Never 0.
-    std::uint64_t key(std::size_t i) const {
-        return kernels::key_of(upper[i], named.empty() ? std::uint32_t(i) : named[i]);
-    }
     bool is_image(std::size_t i) const { return !surface_coc.empty() && surface_coc[i] != coc[i]; }
     // The CoCs that move what hides other samples.
     const LargeArray<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
@@ -93,9 +89,6 @@ inline float largest_coc_of(const SampleBlock &block) {
 
 // Sets the bounds of a block, whose samples are already in `samples`.
 void bound(SampleBlock &block, const BlockedSamples &samples);
-
-// A background lies behind what the LDI has at infinity.
-inline bool is_background(std::uint64_t key) { return kernels::upper_of(key) <= kernels::background_upper; }
 
 // `known`: the pixels that are transparent to infinity where nothing covers them. Throws Error if the LDI has more
 // samples than 32 bits count.

@@ -1,50 +1,54 @@
 #include "dof/lens/tile_projection.h"
 
-#include "base/parallel.h"
-#include "kernels/lens_rules.h"
+#include "dof/lens/cell_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace sparselens {
 
-namespace {
+using tile_cells::border, tile_cells::size;
 
-constexpr float rounding = 1.0f / 64; // pixels: more than any position is off
-
-// Along one axis: clears the entries of blocks that the lens point cannot move into [from, to), given that their
-// samples lie between `least` and `most`, and their CoCs between those two. An entry stays where an infinite CoC times
-// 0 says nothing.
-FOR_PROCESSORS
-void find_reached(const float *least, const float *most, const float *coc_of_least, const float *coc_of_most,
-                  std::size_t count, float lens, float from, float to, std::int32_t *in_reach) {
-    for (std::size_t i = 0; i < count; ++i)
-        in_reach[i] &= !(most[i] + coc_of_most[i] * lens < from) & !(least[i] + coc_of_least[i] * lens >= to);
-}
-
-} // namespace
-
-TileProjection::TileProjection(const LensSample &lens, float corner_x, float corner_y, int row)
-    : lens_x(lens.x), lens_y(lens.y), tile_x(corner_x), tile_y(corner_y),
-      shift_x(lens.pixel_x + kernels::shift_of_samples), shift_y(lens.pixel_y + kernels::shift_of_samples),
-      stride(row) {}
-
-// This loop is most of the gather's work.
-FOR_PROCESSORS
-void project_to_cells(const TileProjection &p, const float *x, const float *y, const float *coc,
-                      std::uint32_t count, std::int32_t *cells) {
-    const int stride = p.stride; // local copies rule out aliasing
-    const float limit = float(stride - 1);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const float cx = kernels::seen_along(x[i], p.tile_x, coc[i], p.lens_x, p.shift_x);
-        const float cy = kernels::seen_along(y[i], p.tile_y, coc[i], p.lens_y, p.shift_y);
-        const float column = kernels::cell_along(cx, limit), row = kernels::cell_along(cy, limit);
-        cells[i] = std::int32_t(row) * stride + std::int32_t(column);
+kernels::TileUnits tile_units(float largest_coc, std::span<const LensSample> lens) {
+    float reach = 0, shift = 0;
+    for (const LensSample &p : lens) {
+        reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+        shift = std::max({shift, std::abs(p.pixel_x), std::abs(p.pixel_y)});
     }
+    kernels::TileUnits units{128, 1, 0, 0, 0, 0};
+    while (units.lens_unit < reach * 0.999f) units.lens_unit *= 2;
+    while (reach > 0 && units.lens_unit / 2 >= reach * 0.999f) units.lens_unit /= 2;
+    const auto all = [&] { return (2 * units.farthest + shift + kernels::around_tile_px) * units.unit; };
+    constexpr float most = 32767, least_unit = 4;
+    units.farthest = std::min(largest_coc * units.lens_unit + shift, (most / least_unit - shift) / 2 - 20);
+    while (all() > most) units.unit /= 2;
+    return units;
 }
 
-void BlockBounds::set(std::span<const std::uint32_t> blocks, const BlockedSamples &samples) {
-    blocks_ = blocks;
+void WholePlaces::add(const kernels::TileUnits &units, const Imath::V2f &middle, const float *from_x,
+                      const float *from_y, const float *from_coc, std::uint32_t samples) {
+    const std::size_t first = x.size(), end = first + samples,
+                      padded = first + (samples + lanes - 1) / lanes * lanes;
+    for (auto *places : {&x, &y, &coc}) places->resize(padded);
+    whole_places(units, middle.x, from_x, samples, x.data() + first);
+    whole_places(units, middle.y, from_y, samples, y.data() + first);
+    whole_cocs(units, from_coc, samples, coc.data() + first);
+    for (std::size_t i = end; i < padded; ++i) x[i] = y[i] = -32767, coc[i] = 0;
+}
+
+WholeLens::WholeLens(const kernels::TileUnits &units, const LensSample &lens)
+    : x(std::int16_t(kernels::whole_lens(lens.x, units.lens_unit))),
+      y(std::int16_t(kernels::whole_lens(lens.y, units.lens_unit))),
+      shift_x(std::int16_t(kernels::whole_shift(lens.pixel_x, units.unit, units.farthest))),
+      shift_y(std::int16_t(kernels::whole_shift(lens.pixel_y, units.unit, units.farthest))),
+      first(std::int16_t(-(size / 2 + border) * int(units.unit))),
+      last(std::int16_t((size / 2 + border) * int(units.unit) - 1)),
+      to_pixel(std::int16_t(65536 / units.unit)) {}
+
+void BlockBounds::set(std::span<const std::uint32_t> blocks, const BlockedSamples &samples,
+                      const kernels::TileUnits &units) {
+    rounding_ = 3 / units.unit;
     for (auto *array : {&x_min_, &x_max_, &y_min_, &y_max_, &coc_min_, &coc_max_})
         array->resize(blocks.size());
     in_reach_.resize(blocks.size());
@@ -66,14 +70,14 @@ std::span<const std::uint32_t> BlockBounds::reached(const LensSample &lens, cons
                            float from, float to) {
         const bool same = by >= 0; // else the sample with the largest CoC moves farthest down
         find_reached(least.data(), most.data(), (same ? coc_min_ : coc_max_).data(),
-                     (same ? coc_max_ : coc_min_).data(), blocks_.size(), by, from - rounding, to + rounding,
-                     in_reach_.data());
+                     (same ? coc_max_ : coc_min_).data(), in_reach_.size(), by, from - rounding_,
+                     to + rounding_, in_reach_.data());
     };
     along(x_min_, x_max_, lens.x, box.left - lens.pixel_x, box.right - lens.pixel_x);
     along(y_min_, y_max_, lens.y, box.top - lens.pixel_y, box.bottom - lens.pixel_y);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-        reached_[count] = blocks_[i];
+    for (std::size_t i = 0; i < in_reach_.size(); ++i) {
+        reached_[count] = std::uint32_t(i);
         count += std::size_t(in_reach_[i]);
     }
     return std::span(reached_).first(count);

@@ -1,8 +1,10 @@
-// Finds where a lens point sees samples: in which cells of a square grid they fall, moved by their circles of
-// confusion.
+// Finds where a lens point sees samples: in which cells of a tile they fall, moved by their circles of confusion.
 #pragma once
 
+#include "base/image.h"
+#include "dof/lens/cell_rows.h"
 #include "dof/lens/sample_blocks.h"
+#include "kernels/lens_rules.h"
 #include "lens/lens_samples.h"
 
 #include <cstdint>
@@ -11,20 +13,26 @@
 
 namespace sparselens {
 
-struct TileProjection {
-    float lens_x, lens_y; // displacement for each pixel of CoC
-    // corner of the grid inside its border, pixels, in the coordinates of the samples
-    float tile_x, tile_y;
-    float shift_x, shift_y; // of all samples: the point of the pixel that is looked through, and the border
-    int stride;             // cells in a row, the border of one cell on either side among them
+// Returns the units, without depths, for samples with these CoCs and lens points.
+kernels::TileUnits tile_units(float largest_coc, std::span<const LensSample> lens);
 
-    TileProjection(const LensSample &lens, float corner_x, float corner_y, int row);
+// Places of samples in units, stored contiguously for vectors of `lanes`.
+struct WholePlaces {
+    static constexpr std::uint32_t lanes = 16;
+    LargeArray<std::int16_t> x, y, coc;
+
+    std::uint32_t count() const { return std::uint32_t(x.size()); }
+    // Appends samples, and up to a multiple of `lanes` places outside of the tile. `middle`: of the tile.
+    void add(const kernels::TileUnits &units, const Imath::V2f &middle, const float *from_x,
+             const float *from_y, const float *from_coc, std::uint32_t samples);
 };
 
-// Finds the cell of each of `count` samples, counted row by row from the border's corner. Samples outside are put into
-// the border. The results are the same on every processor.
-void project_to_cells(const TileProjection &projection, const float *x, const float *y, const float *coc,
-                      std::uint32_t count, std::int32_t *cells);
+// Finds the cells of `count` places from `begin` on; both are multiples of WholePlaces::lanes.
+inline void project_to_cells(const WholeLens &lens, const WholePlaces &places, std::uint32_t begin,
+                             std::uint32_t count, std::uint16_t *cells) {
+    project_to_cells(lens, places.x.data() + begin, places.y.data() + begin, places.coc.data() + begin, count,
+                     cells);
+}
 
 // The bounds of some blocks, stored contiguously, because each lens point tests them to find the blocks that it brings
 // into a tile.
@@ -33,12 +41,14 @@ public:
     struct Box { // pixels, in the coordinates of the samples
         float left, right, top, bottom;
     };
-    void set(std::span<const std::uint32_t> blocks, const BlockedSamples &samples);
-    // Returns, in order, the blocks of which a lens point may bring samples into the box. Valid until the next call.
+    void set(std::span<const std::uint32_t> blocks, const BlockedSamples &samples,
+             const kernels::TileUnits &units);
+    // Returns, in order, the indices of the blocks of which a lens point may bring samples into the box. Valid until
+    // the next call.
     std::span<const std::uint32_t> reached(const LensSample &lens, const Box &box);
 
 private:
-    std::span<const std::uint32_t> blocks_;
+    float rounding_ = 0; // pixels: more than any position is off
     std::vector<float> x_min_, x_max_, y_min_, y_max_, coc_min_, coc_max_;
     std::vector<std::int32_t> in_reach_;
     std::vector<std::uint32_t> reached_;

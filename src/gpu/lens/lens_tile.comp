@@ -3,7 +3,7 @@
 //
 // A work group takes the lens points a few at a time, which lie near each other on the lens. It finds the blocks that
 // these move into its pixels, and the nearest opaque sample or facet of them in each cell, by the atomic maximum of
-// their keys in shared memory. Cells that stay empty show cracks and fillers. Samples of partial coverage come in order
+// their words in shared memory. Cells that stay empty show cracks and fillers. Samples of partial coverage come in order
 // of depth, `chunk` at a time: those of a chunk are chained up and sorted for the thread that owns their pixel, which
 // composites them. Every sum belongs to one thread, so the order of additions does not depend on the order in
 // which threads run.
@@ -11,8 +11,6 @@
 // Work that takes long is cut into passes of some lens points each; between passes the sums are kept in a buffer.
 //
 // gl_WorkGroupID.x: the quarter of a tile. gl_WorkGroupID.y: the group of four channels.
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
@@ -46,6 +44,11 @@ void main() {
     partial_first = tile.partial[quarter];
     partial_count = tile.partial_count[quarter];
     held_out = tile.holdout;
+    units = tile.units;
+    number_bits = tile.number_bits;
+    runs = tile.runs;
+    run_count = tile.run_count;
+    numbers = tile.numbers;
     const uint begin = push.pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
     if (begin >= end || max(corner.x, corner.y) >= tile.size) return; // nothing is asked for
     [[dont_unroll]] for (uint j = 0; j < own; ++j) {
@@ -59,6 +62,9 @@ void main() {
         for (uint l = 0; l < points; ++l) {
             const Lens p = lens_points[first_lens + l];
             eyes[l] = vec4(p.x, p.y, p.pixel_x, p.pixel_y);
+            whole_eyes[l] = ivec4(whole_lens(p.x, units.lens_unit), whole_lens(p.y, units.lens_unit),
+                                  whole_shift(p.pixel_x, units.unit, units.farthest),
+                                  whole_shift(p.pixel_y, units.unit, units.farthest));
             weights[l] = p.weight;
         }
         if (is_weighted) weigh_channels(group);

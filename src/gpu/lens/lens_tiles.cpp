@@ -15,7 +15,7 @@ namespace {
 // Returns the number of samples or facets of all blocks, which are stored one block after the other.
 std::size_t count_of(const auto &of) { return of.blocks.empty() ? 0 : of.blocks.back().end; }
 
-// Places samples from `first` on. `hiding`: for the upper halves of keys.
+// Places samples from `first` on.
 void place(SceneArrays &arrays, const BlockedSamples &from, std::size_t first, std::uint32_t hiding) {
     parallel_ranges(count_of(from), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -44,8 +44,7 @@ void colour(SceneArrays &arrays, const BlockedSamples &from, const SampleColours
 
 void place_facets(SceneArrays &arrays, const PlacedFacets &from) {
     arrays.facets.resize(3 * count_of(from));
-    for (std::size_t i = 0; i < arrays.facets.size(); ++i)
-        arrays.facets[i] = kernels::sample_of(from.key[i % 3][i / 3]);
+    for (std::size_t i = 0; i < arrays.facets.size(); ++i) arrays.facets[i] = from.sample[i % 3][i / 3];
     for (const FacetBlock &b : from.blocks)
         arrays.blocks.push_back({b.begin, b.end, b.x_min, b.x_max, b.y_min, b.y_max, b.coc_min, b.coc_max});
 }
@@ -118,13 +117,14 @@ constexpr std::size_t tiles_at_once = 512; // limits the memory of their lists
 // Threads of a work group. In software, threads that have nothing to do cost as much as the others.
 std::uint32_t threads_on(const Device &device) { return device.info().kind == Kind::software ? 32 : 256; }
 
-// Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little.
+// Lens points that a work group takes at once, by its shared memory (tile_data.glsl). More than four gain little, and
+// in software more than three take more turns of loops than turns_of() counts.
 std::uint32_t points_at_once(const Device &device, std::uint32_t rules) {
     const std::size_t cells = ((rules & lens_kernel::images) != 0 ? 2 : 1) * lens_kernel::cells,
-                      of_point = cells * sizeof(std::uint64_t) + lens_kernel::chunk * sizeof(std::uint32_t),
-                      others = threads_on(device) * 3 * sizeof(std::uint32_t) + 64;
-    return std::uint32_t(
-        std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, std::size_t{4}));
+                      of_point = cells * sizeof(std::uint32_t) + lens_kernel::chunk * sizeof(std::uint32_t),
+                      others = threads_on(device) * 5 * sizeof(std::uint32_t) + 64;
+    const std::size_t most = device.info().kind == Kind::software ? 3 : 4;
+    return std::uint32_t(std::clamp((device.shared_bytes() - others) / of_point, std::size_t{1}, most));
 }
 
 // Sorts lens points so that each group of `points` consecutive ones lies close together: in bands from side to side of

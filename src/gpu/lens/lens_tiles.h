@@ -20,7 +20,7 @@ namespace sparselens::gpu {
 struct SceneArrays {
     // Samples: first those of the LDI, then fillers, then solids. Solids have no alphas and no colours.
     std::vector<std::array<float, 2>> places;
-    std::vector<std::uint32_t> uppers; // halves of keys, with lens_kernel::hiding except for fillers
+    std::vector<std::uint32_t> uppers; // with lens_kernel::hiding except for fillers
     std::vector<float> cocs, alphas;
     std::vector<float> shown;   // CoCs of what samples show; empty without mirrors and glass: as `cocs`
     std::vector<float> colours; // [group][sample][4]

@@ -2,7 +2,7 @@
 
 // The scene (lens_tiles.h). Data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
-// The upper half of the key, with the bit `hiding` except for fillers.
+// With the bit `hiding` except for fillers.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
 layout(binding = 2) readonly buffer Cocs { float cocs[]; }; // move what is seen and what hides
 // CoCs of what opaque samples show, such as an image in a mirror
@@ -41,10 +41,10 @@ const uint rows = workers / size;              // of pixels that threads own sid
 const uint images_from = points * cells;       // in front[]
 const uint fronts = images_from + (rules & images) / images * images_from;
 
-// [lens point][cell]: keys of the nearest samples, with fillers where there are none; 0: nothing. Then the same of the
-// nearest images, and later of what each cell shows.
-shared uint64_t front[fronts];
-shared uvec2 near[workers]; // the samples of the blocks that reach the quarter: begin, end
+// [lens point][cell]: words of the nearest samples (dof/lens/tile_samples.h), with the bit `hiding`, and without it of
+// fillers where there are none; 0: nothing. Then the same of the nearest images, and later of what each cell shows.
+shared uint front[fronts];
+shared uvec3 near[workers]; // the samples of the blocks that reach the quarter: begin, end, number of the first
 shared uint near_count;
 // Partial samples in front of the pixels of each thread, as a chain of entries: [thread] the first, [entry] the next.
 shared uint chains[workers], nexts[chunk * points];
@@ -56,6 +56,10 @@ uint partial_first, partial_count; // of the quarter
 uint held_out; // where the tile's part of holdouts[] begins
 uint first_lens, first_column; // of the lens points
 vec4 eyes[points]; // where each lens point looks from: x, y on the lens, x, y in the pixel
+ivec4 whole_eyes[points]; // the same in units of the tile
+TileUnits units;
+uint number_bits; // of a word
+uint runs, run_count, numbers; // among the lists of blocks
 
 struct Sum {
     vec4 light;
@@ -71,5 +75,23 @@ ivec2 pixel_of(uint j) {
 }
 uint owner_of(uvec2 pixel) { return pixel.y % rows * size + (pixel.x - turn * pixel.y) % size; }
 uint cell_of(uint l, ivec2 pixel) { return l * cells + uint((pixel.y + 1) * side + pixel.x + 1); }
+
+// Numbers of samples in words.
+
+uint word_of(uint code, uint number) { return hiding | code << number_bits | number; }
+uint number_mask() { return (1u << number_bits) - 1; }
+uint number_of(uint word) { return word & number_mask(); }
+uint code_of(uint word) { return (word & ~hiding) >> number_bits; }
+uint number_of_sample(uint sample_) {
+    uint low = 0; // of the runs, the last that begins at most at the sample
+    for (uint high = run_count; high - low > 1;) {
+        const uint middle = (low + high) / 2;
+        if (block_lists[runs + 2 * middle] <= sample_) low = middle;
+        else high = middle;
+    }
+    return block_lists[runs + 2 * low + 1] - (sample_ - block_lists[runs + 2 * low]);
+}
+uint sample_of(uint word) { return block_lists[numbers + number_of(word)]; }
 uint sample_at(uint cell) { return sample_of(front[cell]); }
 float depth_in(uint sample_) { return depth_of(uppers[sample_] & ~hiding); }
+uint code_in(uint sample_) { return depth_code(uppers[sample_] & ~hiding, units.nearest, units.codes); }

@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "deep/merge.h"
+#include "dof/lens/tile_samples.h"
 
 #include <algorithm>
 #include <array>
@@ -66,49 +67,17 @@ std::vector<std::uint32_t> holdout_of(const GatherScene &scene, const TileTask &
     return words;
 }
 
-// How far lens points move a sample: per pixel of CoC, and besides.
-struct Reach {
-    float x = 0, y = 0, all = 0;
-};
-
-Reach reach_of(const TileTask &task) {
-    Reach reach;
-    for (const LensSample &p : task.lens) {
-        reach.x = std::max(reach.x, std::abs(p.x));
-        reach.y = std::max(reach.y, std::abs(p.y));
-        reach.all = std::max({reach.all, std::abs(p.pixel_x), std::abs(p.pixel_y)});
-    }
-    return reach;
-}
-
-bool within(float at, float first, float reach) {
-    return at > first - reach && at < first + float(size) + reach;
-}
-
 // Lists the samples of partial coverage that a tile's lens points can bring into each of its quarters: front to
 // back, and in ascending order where depths are equal.
 using PartialLists = std::array<std::vector<std::uint32_t>, quarters>;
 
 PartialLists partial_of(const BlockedSamples &samples, const TileTask &task) {
-    constexpr float margin = 2; // pixels: those next to the quarter, and rounding
-    const Reach reach = reach_of(task);
-    std::vector<std::uint32_t> sorted;
-    for (const std::uint32_t b : task.samples)
-        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
-            sorted.push_back(i);
-    std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
-        return samples.depth(a) != samples.depth(b) ? samples.depth(a) > samples.depth(b) : a < b;
-    });
+    const LensReach reach(task.lens);
     PartialLists lists;
-    for (const std::uint32_t i : sorted) {
-        const float coc = std::abs(samples.hiding_coc()[i]), beside = reach.all + margin,
-                    across = coc * reach.x + beside, down = coc * reach.y + beside;
-        for (std::size_t q = 0; q < quarters; ++q) {
-            const float left = float(task.origin.x + int(q % 2) * size),
-                        top = float(task.origin.y + int(q / 2) * size);
-            if (within(samples.x[i], left, across) && within(samples.y[i], top, down)) lists[q].push_back(i);
-        }
-    }
+    for (const std::uint32_t i : partial_in_reach(samples, task))
+        for (int q = 0; q < int(quarters); ++q)
+            if (reach.brings(samples, i, task.origin + Imath::V2i(q % 2, q / 2) * size, size))
+                lists[std::size_t(q)].push_back(i);
     return lists;
 }
 
@@ -116,6 +85,7 @@ PartialLists partial_of(const BlockedSamples &samples, const TileTask &task) {
 struct LookedUp {
     std::vector<std::uint32_t> columns, holdout;
     PartialLists partial;
+    TileNumbers numbers;
 };
 
 // Adds numbers to a list, and returns where they begin.
@@ -159,6 +129,18 @@ Tile list_tile(TileLists &lists, const GatherScene &scene, const TileTask &task,
     tile.solid_count = count(task.solids);
     tile.columns = append(lists.columns, looked_up.columns);
     tile.holdout = append(lists.holdout, looked_up.holdout);
+    tile.runs = count(lists.blocks);
+    tile.run_count = std::uint32_t(looked_up.numbers.runs.size());
+    for (const NumberRun &run : looked_up.numbers.runs)
+        lists.blocks.insert(lists.blocks.end(), {run.begin, run.number});
+    lists.blocks.insert(lists.blocks.end(), {0, 0}); // one is always read
+    tile.numbers = count(lists.blocks);
+    lists.blocks.resize(tile.numbers + looked_up.numbers.count());
+    for (const NumberRun &run : looked_up.numbers.runs)
+        for (std::uint32_t i = run.begin; i < run.end; ++i)
+            lists.blocks[tile.numbers + run.number - (i - run.begin)] = i;
+    tile.number_bits = std::uint32_t(looked_up.numbers.bits);
+    tile.units = looked_up.numbers.units;
     return tile;
 }
 
@@ -183,7 +165,7 @@ TileLists lists_of(const GatherScene &scene, std::span<const TileTask> tasks, st
     parallel_for(tasks.size(), [&](std::size_t t) {
         turns[t] = turns_of(scene, tasks[t]);
         looked_up[t] = {columns_of(scene, tasks[t]), holdout_of(scene, tasks[t]),
-                        partial_of(scene.samples, tasks[t])};
+                        partial_of(scene.samples, tasks[t]), number_tile(scene, tasks[t])};
     });
     const double groups = turns_at_once / (points * std::accumulate(turns.begin(), turns.end(), 0.0));
     TileLists lists;

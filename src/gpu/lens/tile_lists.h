@@ -15,7 +15,7 @@ namespace sparselens::gpu {
 inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
 
 struct TileLists {
-    std::vector<std::uint32_t> blocks;  // SceneArrays::blocks
+    std::vector<std::uint32_t> blocks;  // SceneArrays::blocks; and runs of numbers (kernels/lens_rules.h)
     std::vector<std::uint32_t> partial; // samples of partial coverage
     std::vector<lens_kernel::Lens> lens;
     // [tile][lens point][two rows]: begin and end of the pixels that see through it past a cat-eye

@@ -6,6 +6,11 @@ float left[points * own];
 
 const uint no_entry = chunk * points;
 
+// Whether a partial sample of this word is behind a word. Samples of one code are compared by their depth.
+bool is_behind(uint word, uint sample_, uint shown_) {
+    return word < shown_ || (word - shown_ <= number_mask() && depth_in(sample_) < depth_in(sample_of(shown_)));
+}
+
 // Chains up what the lens points show of a chunk, in front of what lies behind, for the owner of each pixel. An entry
 // is the lens point times `chunk`, plus the number in the chunk; nexts[] also has the pixel of the quarter. Begins and
 // ends with a barrier.
@@ -14,11 +19,12 @@ void chain_chunk(uint begin) {
     chains[thread()] = no_entry;
     barrier();
     for (uint n = thread(); n < min(partial_count - begin, chunk); n += workers) {
-        const uint i = partial_lists[partial_first + begin + n];
+        const uint i = partial_lists[partial_first + begin + n], word = word_of(code_in(i), number_mask());
+        const ivec3 whole = whole_of(places[i], cocs[i]);
         [[dont_unroll]] for (uint l = 0; l < points; ++l) {
-            const ivec2 at = seen_at(places[i], cocs[i], eyes[l]);
+            const ivec2 at = seen_at(whole, whole_eyes[l]);
             const bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)));
-            if (inside && key_of(uppers[i], i) >= front[cell_of(l, at)])
+            if (inside && !is_behind(word, i, front[cell_of(l, at)]))
                 nexts[l * chunk + n] = atomicExchange(chains[owner_of(uvec2(at))], l * chunk + n) |
                                        (at.y * size + at.x) << 16;
         }

@@ -1,11 +1,18 @@
-// Finds the nearest key in each cell that the lens points see: of opaque samples, of facets between them (dof/facets)
+// Finds the nearest sample in each cell that the lens points see: of opaque ones, of facets between them (dof/facets)
 // and of solids behind them (dof/lens/sample_blocks.h). Each sample is read once for all of the lens points.
 
+// Returns where a sample is, and its CoC, in units of the tile.
+ivec3 whole_of(vec2 place, float coc) {
+    const vec2 middle = first + size;
+    return ivec3(whole_place(place.x, middle.x, units.unit, units.farthest),
+                 whole_place(place.y, middle.y, units.unit, units.farthest),
+                 whole_coc(coc, units.unit * units.lens_unit, units.unit * units.farthest));
+}
+
 // Returns the pixel of the quarter, or next to it, in which a lens point sees a sample; outside: x < -1.
-ivec2 seen_at(vec2 place, float coc, vec4 eye) {
-    const float x = seen_along(place.x, first.x - 1, coc, eye.x, eye.z + shift_of_samples),
-                y = seen_along(place.y, first.y - 1, coc, eye.y, eye.w + shift_of_samples);
-    const ivec2 at = ivec2(int(cell_along(x, tile_stride - 1)), int(cell_along(y, tile_stride - 1))) - border - corner;
+ivec2 seen_at(ivec3 sample_, ivec4 eye) {
+    const ivec2 seen = sample_.xy + ivec2(moved(sample_.z, eye.x), moved(sample_.z, eye.y)) + eye.zw,
+                at = (seen >> findMSB(int(units.unit))) + size - corner;
     const bool inside = all(greaterThanEqual(at, ivec2(-1))) && all(lessThanEqual(at, ivec2(size)));
     return inside ? at : ivec2(-2);
 }
@@ -27,44 +34,39 @@ uint first_near(uint list, uint count) {
         const Block b = blocks[block_lists[list + thread()]];
         bool reaches = false;
         [[dont_unroll]] for (uint l = 0; l < points; ++l) reaches = reaches || !out_of_reach(b, eyes[l]);
-        if (reaches) near[atomicAdd(near_count, 1)] = uvec2(b.begin, b.opaque_end);
+        if (reaches) near[atomicAdd(near_count, 1)] = uvec3(b.begin, b.opaque_end, number_of_sample(b.begin));
     }
     barrier();
     return thread() / team;
 }
 
-// Runs what follows for i.x = each opaque sample, or facet, of listed blocks, for all lens points.
+// Runs what follows for i.x = each opaque sample, or facet, of listed blocks, for all lens points. i.z: its number.
 #define FOR_NEAR(i, list, count)                                                                    \
     for (uint listed_ = 0; listed_ < (count); listed_ += workers)                                   \
         for (uint n_ = first_near((list) + listed_, (count) - listed_); n_ < near_count; n_ += workers / team) \
-            for (uvec2 i = near[n_] + uvec2(thread() % team, 0); i.x < i.y; i.x += team)
+            for (uvec3 i = near[n_] + uvec3(1, 0, -1) * (thread() % team); i.x < i.y; i.x += team, i.z -= team)
 
 // Finds the images that a lens point sees in mirrors and glass, where their surface is seen.
 
 bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
 
-// The key is greater for a smaller CoC, then for a smaller index.
-uint64_t image_key(uint sample_) {
-    const float coc = shown[sample_];
-    const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
-    return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
-}
-
 // Finds the nearest samples of a kind: those that show themselves; solids, which hide what lies behind them, in cells
 // that show something; and images.
 void see(uint kind, uint list, uint count) {
-    vec4 from[points]; // eyes[], in registers
-    for (uint l = 0; l < points; ++l) from[l] = eyes[l];
+    ivec4 from[points]; // whole_eyes[], in registers
+    for (uint l = 0; l < points; ++l) from[l] = whole_eyes[l];
     FOR_NEAR(i, list, count) {
         if (kind == images && !is_image(i.x)) continue;
-        const vec2 place = places[i.x];
-        const float coc = kind == images ? shown[i.x] : cocs[i.x];
-        const uint names = kind == with_solids ? solids[i.x - push.sample_count] : i.x;
-        const uint64_t key = kind == images ? image_key(i.x) : key_of(uppers[i.x], names);
+        const ivec3 whole = whole_of(places[i.x], kind == images ? shown[i.x] : cocs[i.x]);
+        const uint number = kind == with_solids ? number_of_sample(solids[i.x - push.sample_count]) : i.z;
+        uint code = code_in(i.x);
+        if (kind == images) code = image_code(shown[i.x], units.farthest, units.image_codes);
+        uint word = word_of(code, number);
+        if (uppers[i.x] < hiding) word -= hiding;
         for (uint l = 0; l < points; ++l) {
-            const ivec2 at = seen_at(place, coc, from[l]);
-            if (at.x < -1 || (kind == with_solids && upper_of(front[cell_of(l, at)]) < hiding)) continue;
-            atomicMax(front[(kind == images ? images_from : 0) + cell_of(l, at)], key);
+            const ivec2 at = seen_at(whole, from[l]);
+            if (at.x < -1 || (kind == with_solids && front[cell_of(l, at)] < hiding)) continue;
+            atomicMax(front[(kind == images ? images_from : 0) + cell_of(l, at)], word);
         }
     }
 }
@@ -112,7 +114,8 @@ void draw(Triangle t, uint l) {
                         c = turned * area(t, 0, 1, vec2(column, row));
             if (a < 0 || b < 0 || c < 0) continue;
             const uint nearest = t.corner[nearest_corner(a, b, c)];
-            atomicMax(front[cell_of(l, ivec2(column, row) - border - corner)], key_of(uppers[nearest], nearest));
+            atomicMax(front[cell_of(l, ivec2(column, row) - border - corner)],
+                      word_of(code_in(nearest), number_of_sample(nearest)));
         }
 }
 
@@ -125,49 +128,44 @@ void see_facets(uint list, uint count) {
         }
 }
 
-// Returns the sample whose image shows in a cell; else the front sample.
+// Returns the word of the sample whose image shows in a cell; else of the front sample.
 uint image_at(uint cell) {
     const uint sample_ = sample_at(cell);
-    if (!is_image(sample_)) return sample_;
+    if (!is_image(sample_)) return front[cell];
     const uint around[5] = {cell, cell - 1, cell + 1, cell - side, cell + side};
     for (uint n = 0; n < 5; ++n) {
-        const uint64_t key = front[images_from + around[n]];
-        const uint image = sample_of(~key);
-        if (key != 0UL && is_in_mirror(depth_in(image), depth_in(sample_))) return image;
+        const uint word = front[images_from + around[n]], image = sample_of(word);
+        if (word != 0 && is_in_mirror(depth_in(image), depth_in(sample_))) return word;
     }
-    return sample_;
+    return front[cell];
 }
 
 // Finds what a lens point sees where it meets no opaque sample, or only one far behind: a surface through the cracks
 // between its samples, else fillers.
 
-// The upper half of the key of the opaque sample at a cell; 0: there is none.
-uint opaque_at(uint cell) {
-    const uint upper = upper_of(front[cell]);
-    return upper >= hiding ? upper - hiding : 0;
-}
+// The depth code of the opaque sample at a cell; 0: there is none.
+uint opaque_at(uint cell) { return front[cell] >= hiding ? code_of(front[cell]) : 0; }
 
-// Returns the key of the sample that shows through a crack at a cell; 0: there is no crack. `axes`: bits,
+// Returns the word of the sample that shows through a crack at a cell; 0: there is no crack. `axes`: bits,
 // as Odd has them.
-uint64_t torn_at(uint cell, uint axes) {
-    uint64_t farthest = 0UL;
+uint torn_at(uint cell, uint axes) {
+    uint farthest = 0;
     float farthest_depth = 0;
     for (; axes != 0; axes &= axes - 1) {
         const uint s = findLSB(axes), step_ = s == 0 ? 1 : s == 1 ? side : side + 2 * s - 5;
-        const uint64_t one = front[cell - step_], other = front[cell + step_];
-        const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
-        const float depth_a = depth_in(sample_of(one)), depth_b = depth_in(sample_of(other)),
-                    depth = min(depth_a, depth_b);
-        if (!is_crack(apart.x, apart.y, depth_a, depth_b) || (farthest != 0UL && depth >= farthest_depth)) continue;
+        const uint one = front[cell - step_], other = front[cell + step_], a = sample_of(one), b = sample_of(other);
+        const vec2 apart = places[a] - places[b];
+        const float depth_a = depth_in(a), depth_b = depth_in(b), depth = min(depth_a, depth_b);
+        if (!is_crack(apart.x, apart.y, depth_a, depth_b) || (farthest != 0 && depth >= farthest_depth)) continue;
         farthest = depth_a <= depth_b ? one : other;
         farthest_depth = depth;
     }
     return farthest;
 }
 
-// Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
-bool hides(uint cell, float depth) {
-    const uint limit = behind_upper(depth);
+// Whether something of this depth code is behind what a cell shows, or behind a surface that is torn there.
+bool hides(uint cell, uint code) {
+    const uint limit = behind_filler(code, units.codes);
     return opaque_at(cell) > limit || (opaque_at(cell - 1) > limit && opaque_at(cell + 1) > limit) ||
            (opaque_at(cell - side) > limit && opaque_at(cell + side) > limit);
 }
@@ -179,8 +177,7 @@ uvec4 odd_axes[points];
 
 // What repair_odd() found for one of these cells.
 struct Repaired {
-    uint cell, shows; // a sample
-    uint64_t front;
+    uint cell, front, shows; // words
 };
 Repaired repaired[own * points];
 
@@ -206,7 +203,7 @@ void find_odd() {
             for (uint k = 0; k < wide; ++k) {
                 const uvec4 nearest = min(uvec4(here[k], above[k + 1], above[k + 2], above[k]),
                                           uvec4(here[k + 2], below[k + 1], below[k], below[k + 2]));
-                axes |= uvec4(greaterThan(nearest, uvec4(behind_crack(here[k + 1])))) << (j + k);
+                axes |= uvec4(greaterThan(nearest, uvec4(behind_crack(here[k + 1], units.codes)))) << (j + k);
                 some |= uint(has_images || here[k + 1] == 0) << (j + k);
             }
             above = here;
@@ -224,24 +221,24 @@ void repair_odd() {
         if (left == 0) break;
         const uint j = findLSB(left), cell = cell_of_thread(l, j);
         const uvec4 axes = odd_axes[l] >> j & 1;
-        const uint64_t torn = torn_at(cell, axes.x | axes.y << 1 | axes.z << 2 | axes.w << 3), key = front[cell];
-        const bool is_filler = upper_of(key) < hiding, hidden = is_filler && hides(cell, depth_of(upper_of(key)));
-        const uint64_t shows = torn != 0UL ? torn : hidden ? 0UL : key;
+        const uint torn = torn_at(cell, axes.x | axes.y << 1 | axes.z << 2 | axes.w << 3), word = front[cell];
+        const bool is_filler = word < hiding, hidden = is_filler && hides(cell, code_of(word));
+        const uint shows = torn != 0 ? torn : hidden ? 0 : word;
         repaired[count].cell = cell;
         repaired[count].front = shows;
-        if (has_images) repaired[count].shows = torn != 0UL || is_filler ? sample_of(shows) : image_at(cell);
+        if (has_images) repaired[count].shows = torn != 0 || is_filler ? shows : image_at(cell);
         ++count;
     }
     barrier();
     for (uint n = 0; n < count; ++n) {
         front[repaired[n].cell] = repaired[n].front;
-        if (has_images) front[images_from + repaired[n].cell] = key_of(0, repaired[n].shows);
+        if (has_images) front[images_from + repaired[n].cell] = repaired[n].shows;
     }
 }
 
 // Finds what lies behind the partial samples in the quarter's pixels, into front[]. Ends with a barrier.
 void see_behind(Tile tile) {
-    for (uint c = thread(); c < fronts; c += workers) front[c] = 0UL;
+    for (uint c = thread(); c < fronts; c += workers) front[c] = 0;
     see(0, tile.blocks, tile.block_count + tile.filler_count);
     if ((rules & with_facets) != 0) see_facets(tile.facets, tile.facet_count);
     if ((rules & with_solids) != 0) {

@@ -59,14 +59,13 @@ struct Behind {
 
 Behind behind_at(uint l, uint j, uint group) {
     const uint cell = cell_of(l, pixel_of(j));
-    const uint64_t key = front[cell];
-    if (key == 0UL) return Behind(false, 0, vec4(0));
-    const uint seen = has_images ? sample_at(images_from + cell) : sample_of(key);
+    if (front[cell] == 0) return Behind(false, 0, vec4(0));
+    const uint seen = sample_at(has_images ? images_from + cell : cell);
     uint in_front = 0;
     // backgrounds lie behind focus, wherever they are seen
     if (is_two_sided && uppers[seen] != (hiding | background_upper) && shown[seen] < 0) in_front = 1;
     float passed = 1;
-    if (has_holdout) passed = passes(j, depth_in(sample_of(key)));
+    if (has_holdout) passed = passes(j, depth_in(sample_at(cell)));
     return Behind(true, in_front, passed * colours[group * push.sample_count + seen]);
 }
 

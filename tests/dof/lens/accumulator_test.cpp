@@ -20,44 +20,46 @@ struct AccumulatorTest : testing::Test {
                                if (column == 0 && row == 0) return Samples{partial_at(2, .25f, 4)};
                                return Samples{opaque_at(4, 2)};
                            },
-                           {}};
-    const std::uint64_t behind = tile.key(x, y), in_front = tile.key(1, 1), partial = tile.key(0, 0);
+                           {{0, 0, 0, 0, 1}}};
+    const GatherScene scene = tile.scene();
+    const TileTask task = tile.task();
+    const TileSamples samples{scene, task};
+    const std::uint32_t behind = tile.sample(x, y), in_front = tile.sample(1, 1);
 
     // A lens point that sees nothing at the pixel; the partial sample is elsewhere.
-    Visibility nothing() const {
-        const auto i = std::uint32_t(partial);
-        const BlockedSamples &samples = tile.blocked.samples;
+    static Visibility nothing() {
         Visibility seen;
         seen.columns.fill({0, 64});
-        seen.empty.fill(~std::uint64_t{});
+        seen.unknown.fill(~std::uint64_t{});
         seen.front.resize(tile_cells::count);
-        seen.filler.resize(tile_cells::count);
-        seen.partial = {{i},    {samples.x[i]}, {samples.y[i]}, {samples.coc[i]}, {samples.depth(i)},
-                        {.75f}, {partial}};
         seen.partial_cells = {0};
         return seen;
     }
     // ... with an opaque sample at the pixel.
-    Visibility opaque(std::uint64_t key) const {
+    Visibility opaque(std::uint32_t sample) const {
+        const auto number =
+            std::ranges::find(samples.shown, sample, &TileSamples::Shown::sample) - samples.shown.begin();
+        const kernels::TileUnits &units = samples.units();
         Visibility seen = nothing();
-        seen.front[at(x, y)] = key;
-        seen.empty[y] ^= std::uint64_t{1} << x;
+        seen.front[at(x, y)] = samples.word_of(
+            kernels::depth_code(tile.blocked.samples.upper[sample], units.nearest, units.codes),
+            CellWord(number));
+        seen.unknown[y] ^= std::uint64_t{1} << x;
         return seen;
     }
     // The same behind the partial sample.
     static Visibility covered(Visibility seen) {
-        seen.partial_cells = {std::int32_t(at(x, y))};
+        seen.partial_cells = {std::uint16_t(at(x, y))};
         return seen;
     }
     struct Mean {
         float value, known;
     };
     // The mean of channel Y over lens points with their visible samples.
-    template <typename Light>
-    Mean mean(const std::vector<std::pair<LensSample, Visibility>> &points,
+    Mean mean(const std::vector<std::pair<LensSample, Visibility>> &points, bool two_sided = false,
               const LensLooks &looks = {}) const {
-        const GatherScene scene = tile.scene(looks);
-        Accumulator<Light> sums(scene, points.front().second);
+        const GatherScene by_looks = tile.scene(looks);
+        Accumulator sums(by_looks, samples, task.origin, two_sided);
         for (const auto &[point, seen] : points) sums.add(seen, point);
         const TilePicture picture = sums.picture();
         EXPECT_EQ(picture.is_known(pixel), picture.known[pixel] > 0);
@@ -68,31 +70,29 @@ struct AccumulatorTest : testing::Test {
 constexpr LensSample point{0, 0, 0, 0, .5f}, heavy{0, 0, 0, 0, 1.5f};
 
 TEST_F(AccumulatorTest, AllSeeOneSample) {
-    const Mean even = mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(behind)}});
+    const Mean even = mean({{point, opaque(behind)}, {heavy, opaque(behind)}});
     EXPECT_FLOAT_EQ(even.value, 2);
     EXPECT_FLOAT_EQ(even.known, 2);
 }
 
 TEST_F(AccumulatorTest, EachCountsByItsWeight) {
-    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value,
-                    (2 + 3 * 8) / 4.f);
+    EXPECT_FLOAT_EQ(mean({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value, (2 + 3 * 8) / 4.f);
 }
 
 TEST_F(AccumulatorTest, WhatIsUnknownDoesNotCount) {
-    const Mean half = mean<UniformWeights>({{point, opaque(behind)}, {heavy, nothing()}});
+    const Mean half = mean({{point, opaque(behind)}, {heavy, nothing()}});
     EXPECT_FLOAT_EQ(half.value, 2);
     EXPECT_FLOAT_EQ(half.known, .5f);
-    EXPECT_EQ(mean<UniformWeights>({{point, nothing()}}).known, 0);
+    EXPECT_EQ(mean({{point, nothing()}}).known, 0);
 }
 
 TEST_F(AccumulatorTest, APartialSampleLetsTheRestThrough) {
-    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
-    EXPECT_FLOAT_EQ(mean<UniformWeights>({{point, covered(opaque(in_front))}}).value, 8)
-        << "it is behind that";
+    EXPECT_FLOAT_EQ(mean({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
+    EXPECT_FLOAT_EQ(mean({{point, covered(opaque(in_front))}}).value, 8) << "it is behind that";
 }
 
 TEST_F(AccumulatorTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
-    const Mean alone = mean<UniformWeights>({{point, covered(nothing())}});
+    const Mean alone = mean({{point, covered(nothing())}});
     EXPECT_FLOAT_EQ(alone.value, 4);
     EXPECT_FLOAT_EQ(alone.known, .25f * .5f);
 }
@@ -100,11 +100,9 @@ TEST_F(AccumulatorTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
 TEST_F(AccumulatorTest, ColoursAndSidesCountByTheirs) {
     const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, {9, .5f, 9}, {9, 1.5f, 9}},
         rim{0, 0, 0, 0, 1, {1, 1, 1}, {9, 1.5f, 9}, {9, .5f, 9}};
-    const float by_side =
-        mean<ChannelWeights<2>>({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}).value;
+    const float by_side = mean({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}, true).value;
     EXPECT_FLOAT_EQ(by_side, (3 * 1.5f * 8 + 1.5f * 2) / (3 * 1.5f + 1.5f));
-    const float one_side =
-        mean<ChannelWeights<1>>({{green_rim, opaque(behind)}, {rim, covered(opaque(behind))}}).value;
+    const float one_side = mean({{green_rim, opaque(behind)}, {rim, covered(opaque(behind))}}).value;
     EXPECT_FLOAT_EQ(one_side, (1.5f * 2 + 1.5f * (.25f * 4 + .75f * 2)) / 3);
 }
 
@@ -114,12 +112,13 @@ TEST_F(AccumulatorTest, ACatsEyeLeavesOutOrDarkens) {
     const LensSample bright{0, 0, 0, 0, .5f, {1, 3, 1}};
     Visibility beside = opaque(in_front);
     beside.columns[y] = {x + 1, 64};
-    beside.empty[y] = 0;
+    beside.front[at(x, y)] = 0;
+    beside.unknown.fill(~std::uint64_t{});
     for (const bool darkens : {false, true}) {
         LensLooks looks;
         looks.cat_eye = 1;
         looks.cat_eye_darkening = darkens;
-        const Mean cut = mean<ChannelWeights<1>>({{bright, opaque(behind)}, {point, beside}}, looks);
+        const Mean cut = mean({{bright, opaque(behind)}, {point, beside}}, false, looks);
         EXPECT_FLOAT_EQ(cut.value, darkens ? 6 : 2);
         EXPECT_FLOAT_EQ(cut.known, darkens ? .5f : 1.5f);
     }

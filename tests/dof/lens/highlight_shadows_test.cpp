@@ -62,7 +62,7 @@ struct LampBehindBoards : BlockedLdi {
     static bool is_lamp(int x, int y) { return x >= 24 && x < 32 && y >= 32 && y < 40; }
 
     explicit LampBehindBoards(const Ldi &from)
-        : BlockedLdi(from, lens), solids(place_solids(ldi, lens, samples)),
+        : BlockedLdi(from, lens), solids(place_solids(ldi, lens, {}, samples)),
           footprints(ldi, samples, Links(ldi, lens)), solid_footprints(ldi, solids) {
         for (std::uint32_t i = 0; i < samples.count(); ++i)
             if (samples.source[i] != BlockedSamples::background && ldi.values[0][samples.source[i]] == 900)

@@ -114,16 +114,15 @@ TEST(SampleBlocks, WithoutCoverageAllSamplesAreOpaque) {
         EXPECT_EQ(block.opaque_end, block.end);
 }
 
-TEST(SampleBlocks, KeysGoByDepth) {
+TEST(SampleBlocks, UppersGoByDepth) {
     const Ldi ldi = random_surfaces(windows_of_size(45, 21), lens, false, 3);
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
-    std::set<std::uint64_t> keys;
-    for (std::size_t i = 0; i < samples.count(); ++i) keys.insert(samples.key(i));
-    EXPECT_EQ(keys.size(), samples.count());
-    EXPECT_GT(*keys.begin(), 0u);
+    std::set<std::pair<std::uint32_t, float>> uppers;
+    for (std::size_t i = 0; i < samples.count(); ++i) uppers.insert({samples.upper[i], samples.depth(i)});
+    EXPECT_GT(uppers.size(), 20u);
+    EXPECT_GT(uppers.begin()->first, 0u);
     float last = -1;
-    for (const std::uint64_t key : keys) {
-        const float depth = samples.depth(std::uint32_t(key));
+    for (const auto &[upper, depth] : uppers) {
         EXPECT_GE(depth, last);
         last = depth;
     }
@@ -134,12 +133,12 @@ TEST(SampleBlocks, BackgroundsLieBehindWhatIsAtInfinity) {
         return std::vector<Sample>{{inf, {0.5f}}};
     });
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
-    std::uint64_t farthest_sample = ~std::uint64_t(0), nearest_background = 0;
+    std::uint32_t farthest_sample = ~0u, nearest_background = 0;
     for (std::size_t i = 0; i < samples.count(); ++i) {
         if (is_background(samples, i))
-            nearest_background = std::max(nearest_background, samples.key(i));
+            nearest_background = std::max(nearest_background, samples.upper[i]);
         else
-            farthest_sample = std::min(farthest_sample, samples.key(i));
+            farthest_sample = std::min(farthest_sample, samples.upper[i]);
     }
     EXPECT_LT(nearest_background, farthest_sample);
 }

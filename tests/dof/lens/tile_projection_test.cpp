@@ -14,43 +14,67 @@
 namespace sparselens {
 namespace {
 
-constexpr int size = 8, stride = size + 2;
-
-// Computed in double from the position of the drawn sample: all numbers in the test are short enough to be exact in
-// float.
-int cell_of(const LensSample &lens, double corner_x, double corner_y, double x, double y, double coc) {
-    const double column = std::floor(x + coc * double(lens.x) + double(lens.pixel_x) - corner_x) + 1;
-    const double row = std::floor(y + coc * double(lens.y) + double(lens.pixel_y) - corner_y) + 1;
-    return int(std::clamp(row, 0.0, stride - 1.0)) * stride + int(std::clamp(column, 0.0, stride - 1.0));
+// Computed in double: all numbers in the test are short enough to be whole in units.
+std::size_t cell_of(const LensSample &lens, const Imath::V2d &corner, double x, double y, double coc) {
+    const double column = std::floor(x + coc * double(lens.x) + double(lens.pixel_x) - corner.x),
+                 row = std::floor(y + coc * double(lens.y) + double(lens.pixel_y) - corner.y);
+    return tile_cells::at(int(std::clamp(column, -2.0, 65.0)), int(std::clamp(row, -2.0, 65.0)));
 }
 
+std::vector<std::uint16_t> cells_of(const LensSample &lens, const Imath::V2f &corner, float largest_coc,
+                                    const std::vector<float> &x, const std::vector<float> &y,
+                                    const std::vector<float> &coc) {
+    const kernels::TileUnits units = tile_units(largest_coc, {&lens, 1});
+    WholePlaces places;
+    places.add(units, corner + Imath::V2f(32), x.data(), y.data(), coc.data(), std::uint32_t(x.size()));
+    std::vector<std::uint16_t> cells(places.count());
+    project_to_cells(WholeLens(units, lens), places, 0, places.count(), cells.data());
+    cells.resize(x.size());
+    return cells;
+}
+
+// The larger the CoC and the wider the lens, the fewer are the units in a pixel.
 TEST(TileProjection, SamplesFallWhereTheLensPointSeesThem) {
-    const LensSample lens{0.75f, -0.5f, 0.25f, -0.125f, 1};
-    const float corner_x = 64, corner_y = 128;
-    std::mt19937 random(3);
-    std::uniform_int_distribution<int> eighths(-8 * 20, 8 * 20);
-    std::vector<float> x, y, coc;
-    for (int i = 0; i < 1000; ++i) { // with a remainder for any vector width
-        x.push_back(corner_x + float(eighths(random)) / 8);
-        y.push_back(corner_y + float(eighths(random)) / 8);
-        coc.push_back(float(eighths(random)) / 8);
+    const Imath::V2f corner(64, 128);
+    for (const int largest : {20, 100, 400, 1500})
+        for (const float wide : {1.0f, 2.0f}) {
+            const LensSample lens{0.75f * wide, -0.5f * wide, 0.25f, -0.25f, 1};
+            std::mt19937 random(3);
+            std::uniform_int_distribution<int> any(-largest, largest);
+            std::vector<float> x, y, coc;
+            for (int i = 0; i < 1000; ++i) { // with a remainder for any vector width
+                coc.push_back(float(any(random)));
+                x.push_back(corner.x + 32 - std::round(coc.back() * lens.x) + float(any(random) % 64) + 0.5f);
+                y.push_back(corner.y + 32 - std::round(coc.back() * lens.y) + float(any(random) % 64) + 0.5f);
+            }
+            const std::vector<std::uint16_t> cells = cells_of(lens, corner, float(largest), x, y, coc);
+            for (std::size_t i = 0; i < x.size(); ++i)
+                EXPECT_EQ(cells[i],
+                          cell_of(lens, Imath::V2d(corner), double(x[i]), double(y[i]), double(coc[i])))
+                    << largest << " " << wide << " " << i;
+        }
+}
+
+// Not by rounding alone, however near to its edge the lens point looks through a pixel; a skewed lens moves it far.
+TEST(TileProjection, WhatIsInFocusLeavesItsPixelByAShiftOfHalfAPixelOrMore) {
+    for (const float shift : {-0.5f, -0.499f, 0.498f, 0.4999f, -7.25f, 5.75f}) {
+        const LensSample lens{1, 1, shift, -0.5f, 1};
+        const std::vector<float> x = {3.5f, 40.5f}, y = {9.5f, 20.5f}, coc = {0, 0};
+        const std::vector<std::uint16_t> cells = cells_of(lens, {0, 0}, 20, x, y, coc);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            EXPECT_EQ(cells[i], cell_of(lens, {0, 0}, double(x[i]), double(y[i]), 0)) << shift;
     }
-    x.push_back(corner_x), y.push_back(corner_y), coc.push_back(0);
-    std::vector<std::int32_t> cells(x.size(), -1);
-    project_to_cells(TileProjection(lens, corner_x, corner_y, stride), x.data(), y.data(), coc.data(),
-                     std::uint32_t(x.size()), cells.data());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        EXPECT_EQ(cells[i], cell_of(lens, double(corner_x), double(corner_y), double(x[i]), double(y[i]),
-                                    double(coc[i])))
-            << i;
 }
 
 TEST(TileProjection, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
-    const std::vector<float> x = {1e30f, -1e30f, 4, std::nanf("")}, y = {4, 4, -1e30f, 4}, coc = {0, 0, 0, 0};
-    std::vector<std::int32_t> cells(4);
-    project_to_cells(TileProjection({0, 0, 0, 0, 1}, 0, 0, stride), x.data(), y.data(), coc.data(), 4,
-                     cells.data());
-    EXPECT_EQ(cells, (std::vector<std::int32_t>{5 * stride + stride - 1, 5 * stride, 5, 5 * stride}));
+    const float inf = std::numeric_limits<float>::infinity();
+    const std::vector<float> x = {1e30f, -inf, 4, 5, 6, std::nanf("")}, y = {4, 4, -1e30f, 4, 4, 4},
+                             coc = {0, 0, 0, inf, -inf, 0};
+    const std::vector<std::uint16_t> cells = cells_of({1, 0, 0, 0, 1}, {0, 0}, inf, x, y, coc);
+    const std::vector<std::size_t> expected = {tile_cells::at(65, 4), tile_cells::at(-2, 4),
+                                               tile_cells::at(4, -2), tile_cells::at(65, 4),
+                                               tile_cells::at(-2, 4), tile_cells::at(65, 4)};
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(cells[i], expected[i]) << i;
 }
 
 // Blocks of two samples each, placed at random around a tile.
@@ -81,7 +105,7 @@ TEST(BlockBounds, NoBlockIsMissedThatALensPointBringsInAndFewOthersAreFound) {
     std::vector<std::uint32_t> all(samples.blocks.size());
     std::iota(all.begin(), all.end(), 0u);
     BlockBounds bounds;
-    bounds.set(all, samples);
+    bounds.set(all, samples, tile_units(40, {}));
     std::size_t found = 0, needed = 0;
     for (const LensSample &lens : {LensSample{0.7f, -0.6f, 0.4f, -0.4f, 1},
                                    LensSample{-0.9f, 0.1f, -0.5f, 0.3f, 1}, LensSample{0, 0, 0, 0, 1}}) {
@@ -111,7 +135,7 @@ TEST(BlockBounds, ASampleOutOfAllReachHidesNoneOfItsBlock) {
     bound(samples.blocks[0], samples);
     BlockBounds bounds;
     const std::vector<std::uint32_t> all = {0};
-    bounds.set(all, samples);
+    bounds.set(all, samples, tile_units(40, {}));
     for (const float x : {-0.5f, 0.0f, 0.5f})
         EXPECT_EQ(bounds.reached({x, 0, 0, 0, 1}, {0, 64, 0, 64}).size(), 1u) << x;
 }

@@ -47,11 +47,38 @@ struct TileFixture {
                 facets};
     }
     TileTask task() const { return {{0, 0}, blocks, {}, {}, points}; }
-    // The key of the sample with this index in a pixel.
-    std::uint64_t key(int x, int y, std::size_t place = 0) const {
+    // The sample with this index in a pixel.
+    std::uint32_t sample(int x, int y, std::size_t place = 0) const {
         const std::size_t source = ldi.begin[std::size_t(y * 64 + x)] + place;
         const auto &sources = blocked.samples.source;
-        return blocked.samples.key(std::size_t(std::ranges::find(sources, source) - sources.begin()));
+        return std::uint32_t(std::ranges::find(sources, source) - sources.begin());
+    }
+};
+
+// What the first lens point sees of a tile.
+struct Seen {
+    static constexpr std::uint32_t nothing = ~0u;
+    GatherScene scene;
+    TileTask task;
+    VisibilityPass visibility;
+    const Visibility &by_point = visibility.through(task.lens.front());
+
+    explicit Seen(const TileFixture &tile, const BlockedSamples &solids = {})
+        : scene(tile.scene()), task(tile.task()), visibility(pass(solids, tile.blocks)) {}
+
+    VisibilityPass pass(const BlockedSamples &solids, const std::vector<std::uint32_t> &blocks) {
+        scene.solids = solids;
+        if (solids.count() > 0) task.solids = blocks;
+        return {scene, task};
+    }
+    // The samples at a pixel: the opaque one, and what it shows.
+    std::uint32_t front(int x, int y) const { return sample(by_point.front, x, y); }
+    std::uint32_t shown(int x, int y) const { return sample(by_point.shown(), x, y); }
+
+private:
+    std::uint32_t sample(const std::vector<CellWord> &words, int x, int y) const {
+        const std::uint32_t number = visibility.samples().number_of(words[tile_cells::at(x, y)]);
+        return number == 0 ? nothing : visibility.samples().shown[number].sample;
     }
 };
 
