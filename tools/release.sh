@@ -34,8 +34,12 @@ say "the archive, and what takes its parts"
 tar -xJf "$out/$name-$platform.tar.xz" -C "$work"
 unpacked=$work/$name-$platform
 cmake -E chdir "$work" cmake -E tar xf "$unpacked/share/sparselens/blender/sparselens_blender.zip"
-cp "$out/$name-$platform.tar.xz" "$work/sparselens_blender/"
-cmake -E chdir "$work" cmake -E tar cf "$out/sparselens_blender-$version.zip" --format=zip sparselens_blender
+addon() { # ARCHIVE ZIP: the add-on with these tools inside
+    cp "$1" "$work/sparselens_blender/"
+    cmake -E chdir "$work" cmake -E tar cf "$out/$2" --format=zip sparselens_blender
+    rm "$work/sparselens_blender/${1##*/}"
+}
+addon "$out/$name-$platform.tar.xz" "sparselens_blender-$version-linux.zip"
 tar -cJf "$out/$name-openfx-$platform.tar.xz" -C "$unpacked/OFX/Plugins" SparseLens.ofx.bundle
 images=$(dpkg-query -W -f='${Version}' libopenimageio-dev | sed -E 's/^([0-9]+\.[0-9]+).*/\1/')
 tar -cJf "$out/$name-openimageio-$images-$platform.tar.xz" -C "$build/lib/sparselens/openimageio" dof.imageio.so
@@ -78,6 +82,7 @@ cp "$work"/*.whl "$out/"
 if $all; then
     "$here/tools/arm.sh" "$out"
     "$here/tools/windows.sh" "$out"
+    addon "$out/$name-windows-x86_64.zip" "sparselens_blender-$version-windows.zip"
     bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz" "$out/$name-windows-x86_64.zip"
 fi
 
@@ -96,7 +101,9 @@ row() { # FOR WHOM|WHAT TO DO|PATTERN
         row "A command line, any Linux on ${machine#*|}|<code>tar xf FILE; export PATH=\$PWD/$name-linux-${machine%|*}/bin:\$PATH; dof-gather --help</code>|$name-linux-${machine%|*}.tar.xz"
     done
     row "A command line, Windows 10 (not dof-view)|Unpack, and put its folder <code>bin</code> on the PATH.|$name-windows-x86_64.zip"
-    row "Blender 3.4 to 5.2|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*.zip"
+    for system in linux windows; do
+        row "Blender 3.4 to 5.2 on ${system^}|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*-$system.zip"
+    done
     row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*.whl"
     row "Hosts of OpenFX|Unpack into <code>/usr/OFX/Plugins</code>, and the first file; <code>SPARSELENS_BIN</code> names its bin.|*-openfx-*"
     row "Programs with OpenImageIO $images|Unpack; <code>OIIO_LIBRARY_PATH</code> names that folder, <code>SPARSELENS_BIN</code> the first file's bin.|*-openimageio-*"

@@ -42,6 +42,11 @@ done
 mv elsewhere.tar.xz outside.tar.xz
 mv sparselens-broken.tar.xz broken.tar.xz
 echo text >not-packed.tar.xz
+head -c 400 sparselens-9.1.tar.xz >part.tar.xz
+# Zips, as for Windows. Python does not keep that a file can be run, so the programs of this one do not run here.
+python3 -m zipfile -c not-run.zip sparselens-9.1/
+python3 -m zipfile -c outside.zip elsewhere/
+head -c 400 not-run.zip >part.zip
 cat >operate.py <<EOF
 $enable
 import os
@@ -61,18 +66,21 @@ preferences.folder = ""
 # The zip of a release has the archive in it: here one of version 9.0, which a newer one replaces.
 import sys
 beside = os.path.dirname(sys.modules[type(preferences).__module__].__file__)
-packed = os.path.join(beside, "sparselens-9.0.tar.xz")
+packed = os.path.join(beside, "sparselens-9.0-linux-%s.tar.xz" % os.uname().machine)
+for other in "linux-other.tar.xz", "windows-x86_64.zip":
+    open(os.path.join(beside, "sparselens-9.3-" + other), "w").close()
 os.link("$PWD/sparselens-9.0.tar.xz", packed)
 assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
-for wrong in "not-packed.tar.xz", "outside.tar.xz", "broken.tar.xz":
+for wrong in ("not-packed.tar.xz", "part.tar.xz", "outside.tar.xz", "broken.tar.xz",
+              "part.zip", "outside.zip", "not-run.zip"):
     try:
         bpy.ops.sparselens.install_tools(filepath=os.path.join("$PWD", wrong))
         raise SystemExit("took " + wrong)
     except RuntimeError as error:
         assert wrong in str(error) or "cannot be run" in str(error), error
         assert str(error).strip().count("\n") == 0, error
-        if wrong == "not-packed.tar.xz":
-            assert "choose sparselens-VERSION-linux-x86_64.tar.xz" in str(error), error
+        if wrong.startswith(("not-packed", "part")):
+            assert "choose sparselens-VERSION-linux-%s.tar.xz" % os.uname().machine in str(error), error
 for version in "9.1", "9.2":
     assert bpy.ops.sparselens.install_tools(filepath="$PWD/sparselens-%s.tar.xz" % version) == {"FINISHED"}
     assert bpy.ops.sparselens.find_tools() == {"FINISHED"}

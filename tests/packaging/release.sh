@@ -6,7 +6,7 @@
 . "$(dirname "$0")/../tools/check.sh"
 made=$bin suites=("${@:2}") # check.sh calls the folder so
 version=$(sed -nE 's/^project\(sparselens VERSION ([0-9.]+) .*/\1/p' "$source_dir/CMakeLists.txt")
-archive=$made/sparselens-$version-linux-x86_64.tar.xz zip=$made/sparselens_blender-$version.zip
+archive=$made/sparselens-$version-linux-x86_64.tar.xz zip=$made/sparselens_blender-$version-linux.zip
 logged() { "$@" >log 2>&1 </dev/null || fail "$* ($(tail -n 20 log))"; }
 
 (cd "$made" && sha256sum --quiet -c SHA256SUMS) || fail "other checksums"
@@ -41,6 +41,11 @@ ls env/lib/python3*/site-packages/sparselens-"$version".dist-info/licences-of-li
 # The zip: its add-on finds the tools in it.
 python3 -m zipfile -l "$zip" >list
 grep -q "sparselens_blender/LICENSE " list || fail "no licence in the zip"
+for system in linux windows; do # each has its own tools alone
+    [ -e "${zip/linux/$system}" ] || continue
+    [ "$(python3 -m zipfile -l "${zip/linux/$system}" | grep -oE 'sparselens_blender/sparselens-[^ ]*')" = \
+        "sparselens_blender/$(cd "$made" && ls sparselens-"$version"-$system-x86_64.*)" ] || fail "the tools in ${zip/linux/$system}"
+done
 if command -v blender >/dev/null; then
     logged env -i HOME="$scratch/home" PATH=/usr/bin:/bin blender -b --python-exit-code 3 --python-expr "import bpy
 bpy.ops.preferences.addon_install(filepath='$zip')

@@ -6,6 +6,9 @@ import subprocess
 import tempfile
 import time
 
+# Without it, Windows would open a window for each program.
+NO_WINDOW = {"creationflags": getattr(subprocess, "CREATE_NO_WINDOW", 0)}
+
 
 class ToolError(RuntimeError):
     """A tool failed; the message is what it said."""
@@ -67,7 +70,7 @@ class Chain:
         try:
             self.process = subprocess.Popen(
                 command + ["--progress", "plain"], stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL, stderr=self.said)
+                stdout=subprocess.DEVNULL, stderr=self.said, **NO_WINDOW)
         except OSError as error:
             self.said.close()
             raise ToolError("%s cannot be run: %s"

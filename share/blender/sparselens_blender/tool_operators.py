@@ -25,13 +25,13 @@ class SPARSELENS_OT_find_tools(bpy.types.Operator):
 
 
 class SPARSELENS_OT_install_tools(bpy.types.Operator):
-    """Unpack the archive of sparselens' tools for this add-on: sparselens-VERSION-linux-x86_64.tar.xz"""
-
     bl_idname = "sparselens.install_tools"
     bl_label = "Install Tools"
+    bl_description = ("Unpack the archive of sparselens' tools for this "
+                      "add-on: " + unpack.ARCHIVE)
 
     filepath: bpy.props.StringProperty(subtype="FILE_PATH")
-    filter_glob: bpy.props.StringProperty(default="*.tar.xz",
+    filter_glob: bpy.props.StringProperty(default="*.tar.xz;*.zip",
                                           options={"HIDDEN"})
 
     def invoke(self, context, event):

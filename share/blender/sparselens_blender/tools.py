@@ -8,6 +8,8 @@ import subprocess
 
 import bpy
 
+from .chain import NO_WINDOW
+from .unpack import ARCHIVE, ENDING as ARCHIVE_ENDING
 from .unpack import folders_unpacked, unpack
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -32,9 +34,9 @@ def folders_installed():
     """What Install Tools unpacked; before that, the archive that came in the
     add-on's own zip, unless a newer one is installed."""
     place = folder_of_archives()
-    for archive in glob.glob(os.path.join(glob.escape(HERE),
-                                          "sparselens-*.tar.xz")):
-        name = os.path.basename(archive)[:-len(".tar.xz")]
+    for archive in glob.glob(os.path.join(
+            glob.escape(HERE), ARCHIVE.replace("VERSION", "*"))):
+        name = os.path.basename(archive)[:-len(ARCHIVE_ENDING)]
         if os.path.join(place, name, "bin") > max(folders_unpacked(place),
                                                   default=""):
             try:
@@ -113,7 +115,8 @@ def version(folder):
     command = [tool(folder, "dof-gather"), "--version"]
     try:
         done = subprocess.run(command, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, timeout=60)
+                              stdin=subprocess.DEVNULL, timeout=60,
+                              **NO_WINDOW)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise NoTool("%s cannot be run: %s" % (command[0], error)) from error
     if done.returncode != 0:

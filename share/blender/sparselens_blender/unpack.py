@@ -1,27 +1,44 @@
-"""Unpacks the archive of the tools, which tools/bundle.sh makes, for the
-add-on."""
+"""Unpacks the archive of the tools, which tools/bundle.sh and
+tools/windows.sh make, for the add-on."""
 
 import glob
 import lzma
 import os
+import platform
 import re
 import shutil
 import tarfile
 import tempfile
+import zipfile
 
 TOP = re.compile(r"sparselens-[\w.-]+")
+ENDING = ".zip" if os.name == "nt" else ".tar.xz"
+# The archive for this machine. Windows on ARM runs programs for x86-64.
+ARCHIVE = "sparselens-VERSION-" + (
+    "windows-x86_64" if os.name == "nt"
+    else "linux-" + platform.machine()) + ENDING
 
 
-def top_of(archive, path):
+def opened(path):
+    """The archive, and the names of its files and folders. The names of
+    other members begin with "link "."""
+    if zipfile.is_zipfile(path):
+        archive = zipfile.ZipFile(path)
+        return archive, archive.namelist()  # a link is taken as a file
+    archive = tarfile.open(path)
+    return archive, [member.name if member.isfile() or member.isdir()
+                     else "link " + member.name for member in archive]
+
+
+def top_of(names, path):
     """The archive's only folder. Raises ValueError if the archive holds
     anything but files and folders in it."""
     tops = set()
-    for member in archive:
-        parts = member.name.split("/")
-        if (".." in parts or not TOP.fullmatch(parts[0])
-                or not (member.isfile() or member.isdir())):
+    for name in names:
+        parts = name.split("/")
+        if ".." in parts or not TOP.fullmatch(parts[0]):
             raise ValueError("%s is not an archive of sparselens' tools: it "
-                             "has '%s'" % (path, member.name))
+                             "has '%s'" % (path, name))
         tops.add(parts[0])
     if len(tops) != 1:
         raise ValueError("%s is not an archive of sparselens' tools: it has "
@@ -41,8 +58,9 @@ def unpack(path, folder, check):
     Returns the folder of the tools. Nothing changes if check(folder) raises
     an exception, because they do not run."""
     try:
-        with tarfile.open(path) as archive:
-            top = top_of(archive, path)
+        archive, names = opened(path)
+        with archive:
+            top = top_of(names, path)
             made = tempfile.mkdtemp(prefix=".new-", dir=folder)
             try:
                 archive.extractall(made)
@@ -52,8 +70,8 @@ def unpack(path, folder, check):
                 os.replace(os.path.join(made, top), os.path.join(folder, top))
             finally:
                 shutil.rmtree(made)
-    except (tarfile.TarError, EOFError, lzma.LZMAError) as error:
-        raise ValueError("%s is not an archive, or not a whole one: choose "
-                         "sparselens-VERSION-linux-x86_64.tar.xz"
-                         % path) from error
+    except (tarfile.TarError, zipfile.BadZipFile, EOFError,
+            lzma.LZMAError) as error:
+        raise ValueError("%s is not an archive, or not a whole one: choose %s"
+                         % (path, ARCHIVE)) from error
     return os.path.join(folder, top, "bin")
