@@ -42,11 +42,11 @@ done
 mv elsewhere.tar.xz outside.tar.xz
 mv sparselens-broken.tar.xz broken.tar.xz
 echo text >not-packed.tar.xz
-head -c 400 sparselens-9.1.tar.xz >part.tar.xz
+head -c 100 sparselens-9.1.tar.xz >part.tar.xz
 # Zips, as for Windows. Python does not keep that a file can be run, so the programs of this one do not run here.
 python3 -m zipfile -c not-run.zip sparselens-9.1/
 python3 -m zipfile -c outside.zip elsewhere/
-head -c 400 not-run.zip >part.zip
+head -c 100 not-run.zip >part.zip
 cat >operate.py <<EOF
 $enable
 import os
@@ -67,8 +67,9 @@ preferences.folder = ""
 import sys
 beside = os.path.dirname(sys.modules[type(preferences).__module__].__file__)
 packed = os.path.join(beside, "sparselens-9.0-linux-%s.tar.xz" % os.uname().machine)
-for other in "linux-other.tar.xz", "windows-x86_64.zip":
-    open(os.path.join(beside, "sparselens-9.3-" + other), "w").close()
+others = [os.path.join(beside, "sparselens-9.3-" + name) for name in ("linux-other.tar.xz", "windows-x86_64.zip")]
+for other in others:
+    open(other, "w").close()
 os.link("$PWD/sparselens-9.0.tar.xz", packed)
 assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
 for wrong in ("not-packed.tar.xz", "part.tar.xz", "outside.tar.xz", "broken.tar.xz",
@@ -84,7 +85,8 @@ for wrong in ("not-packed.tar.xz", "part.tar.xz", "outside.tar.xz", "broken.tar.
 for version in "9.1", "9.2":
     assert bpy.ops.sparselens.install_tools(filepath="$PWD/sparselens-%s.tar.xz" % version) == {"FINISHED"}
     assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
-os.remove(packed)
+for file in packed, *others:
+    os.remove(file)
 preferences.folder = "/nowhere"
 for operator in bpy.ops.sparselens.find_tools, bpy.ops.sparselens.take_picture:
     try:
