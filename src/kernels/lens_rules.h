@@ -20,6 +20,7 @@ struct TileUnits {
     float unit;        // units in a pixel; a power of two
     float lens_unit;   // CoCs are multiplied by it, and lens points divided; a power of two
     float farthest;    // pixels: no sample is moved farther
+    float widest;      // pixels: no lens point brings a sample with a larger CoC into the tile
     float nearest;     // pixels: the greatest disparity
     float codes;       // depth codes in a pixel of disparity
     float image_codes; // codes of images in a pixel of CoC
@@ -44,6 +45,7 @@ inline constexpr float around_tile_px = 37; // half a tile, the cells around it,
 inline int whole_place(float at, float middle, float unit, float farthest) {
     return whole((at - middle) * unit, (farthest + around_tile_px) * unit);
 }
+inline float place_if_seen(float at, float coc, float widest) { return abs(coc) > widest ? -1e9f : at; }
 inline int whole_coc(float coc, float coc_unit, float most) { return whole(coc * coc_unit, most); }
 inline int whole_lens(float lens, float lens_unit) { return whole(lens / lens_unit * 32768, 32767); }
 // Rounds downwards. A sum of whole numbers then lies in the cell of the exact sum on average, and in focus always.
@@ -208,7 +210,7 @@ struct Tile {
     uint number_bits; // of a word
     TileUnits units;
 };
-static_assert(sizeof(Tile) == 136 && offsetof(Tile, lens) == 60 && offsetof(Tile, units) == 112);
+static_assert(sizeof(Tile) == 140 && offsetof(Tile, lens) == 60 && offsetof(Tile, units) == 112);
 
 // Lens points weigh differently for colours or for sides of the focus, or not all pixels see through them.
 inline constexpr uint weighted = 1;

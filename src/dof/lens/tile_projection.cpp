@@ -16,7 +16,7 @@ kernels::TileUnits tile_units(float largest_coc, std::span<const LensSample> len
         reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
         shift = std::max({shift, std::abs(p.pixel_x), std::abs(p.pixel_y)});
     }
-    kernels::TileUnits units{128, 1, 0, 0, 0, 0};
+    kernels::TileUnits units{128, 1, 0, largest_coc, 0, 0, 0};
     while (units.lens_unit < reach * 0.999f) units.lens_unit *= 2;
     while (reach > 0 && units.lens_unit / 2 >= reach * 0.999f) units.lens_unit /= 2;
     const auto all = [&] { return (2 * units.farthest + shift + kernels::around_tile_px) * units.unit; };
@@ -34,7 +34,10 @@ void WholePlaces::add(const kernels::TileUnits &units, const Imath::V2f &middle,
     whole_places(units, middle.x, from_x, samples, x.data() + first);
     whole_places(units, middle.y, from_y, samples, y.data() + first);
     whole_cocs(units, from_coc, samples, coc.data() + first);
-    for (std::size_t i = end; i < padded; ++i) x[i] = y[i] = -32767, coc[i] = 0;
+    const auto leave_out = [&](std::size_t i) { x[i] = y[i] = -32767, coc[i] = 0; };
+    for (std::size_t i = end; i < padded; ++i) leave_out(i);
+    for (std::size_t i = 0; i < samples; ++i)
+        if (std::abs(from_coc[i]) > units.widest) leave_out(first + i);
 }
 
 WholeLens::WholeLens(const kernels::TileUnits &units, const LensSample &lens)

@@ -14,6 +14,39 @@ std::uint64_t order_key(float depth, std::uint32_t sample) {
     return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
 }
 
+// Whether some lens point brings a sample at (x, y) into the tile, or next to it.
+bool is_brought(const TileTask &tile, float x, float y, float coc) {
+    constexpr float beside = tile_cells::border + 1; // 1: rounding
+    const float least = -beside, most = float(tile.size) + beside;
+    return std::ranges::any_of(tile.lens, [&](const LensSample &p) {
+        const float column = x - float(tile.origin.x) + coc * p.x + p.pixel_x,
+                    row = y - float(tile.origin.y) + coc * p.y + p.pixel_y;
+        return column > least && column < most && row > least && row < most;
+    });
+}
+
+// The largest CoC and disparity of the samples that lens points bring into a tile, pixels. Only very wide samples are
+// tested, because one bad depth would make the units of all tiles coarse.
+struct TileExtent {
+    float coc = 0, depth = 0;
+
+    void add(const TileTask &tile, const BlockedSamples &samples, const SampleBlock &block) {
+        constexpr float tested_from = 1000; // pixels
+        if (const float most = largest_coc_of(block); !(most > std::max(coc, tested_from))) {
+            coc = std::max(coc, most);
+            depth = std::max(depth, block.depth_max);
+            return;
+        }
+        for (std::uint32_t i = block.begin; i < block.end; ++i)
+            for (const float of : {samples.coc[i], samples.hiding_coc()[i]})
+                if (!(std::abs(of) > std::max(coc, tested_from)) ||
+                    is_brought(tile, samples.x[i], samples.y[i], of)) {
+                    coc = std::max(coc, std::abs(of));
+                    depth = std::max(depth, samples.depth(i));
+                }
+    }
+};
+
 } // namespace
 
 LensReach::LensReach(std::span<const LensSample> lens) {
@@ -46,14 +79,10 @@ std::vector<std::uint32_t> partial_in_reach(const BlockedSamples &samples, const
 TileNumbers number_tile(const GatherScene &scene, const TileTask &tile) {
     TileNumbers numbers;
     std::vector<NumberRun> &runs = numbers.runs;
-    float largest_coc = 0, nearest = 0;
+    TileExtent extent;
     const auto measure = [&](const BlockedSamples &samples, std::span<const std::uint32_t> blocks) {
-        for (const std::uint32_t b : blocks) {
-            const SampleBlock &block = samples.blocks[b];
-            if (block.begin == block.end) continue;
-            largest_coc = std::max(largest_coc, largest_coc_of(block));
-            nearest = std::max(nearest, block.depth_max);
-        }
+        for (const std::uint32_t b : blocks)
+            if (samples.blocks[b].begin < samples.blocks[b].end) extent.add(tile, samples, samples.blocks[b]);
     };
     const auto add_blocks = [&](const BlockedSamples &samples, std::span<const std::uint32_t> blocks,
                                 std::size_t first) {
@@ -94,10 +123,10 @@ TileNumbers number_tile(const GatherScene &scene, const TileTask &tile) {
                   [&](NumberRun &run) { run.number = number += run.end - run.begin; });
 
     numbers.bits = int(std::bit_width(number));
-    kernels::TileUnits &units = numbers.units = tile_units(largest_coc, tile.lens);
+    kernels::TileUnits &units = numbers.units = tile_units(extent.coc, tile.lens);
     constexpr float most_depth = 4096; // nothing is left of the shape of nearer things, nor of their order
     const float codes = 0.999f * float((std::uint32_t{1} << (31 - numbers.bits)) - 8); // .999: rounding
-    units.nearest = std::min(nearest, most_depth);
+    units.nearest = std::min(extent.depth, most_depth);
     units.codes = codes / (units.nearest + kernels::behind_crack_px);
     units.image_codes = codes / (2 * units.farthest + 1);
     return numbers;

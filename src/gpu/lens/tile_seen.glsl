@@ -4,7 +4,8 @@
 // Returns where a sample is, and its CoC, in units of the tile.
 ivec3 whole_of(vec2 place, float coc) {
     const vec2 middle = first + size;
-    return ivec3(whole_place(place.x, middle.x, units.unit, units.farthest),
+    const float x = place_if_seen(place.x, coc, units.widest);
+    return ivec3(whole_place(x, middle.x, units.unit, units.farthest),
                  whole_place(place.y, middle.y, units.unit, units.farthest),
                  whole_coc(coc, units.unit * units.lens_unit, units.unit * units.farthest));
 }

@@ -95,7 +95,7 @@ TEST(CellRows, PlacesAreTheSameOnEveryProcessor) {
     places[0] = cocs[3] = INFINITY;
     places[1] = cocs[4] = -INFINITY;
     places[2] = cocs[5] = NAN;
-    const kernels::TileUnits units{128, 1, 70, 0, 0, 0};
+    const kernels::TileUnits units{128, 1, 70, 70, 0, 0, 0};
     const std::size_t count = places.size() / 16 * 16;
     struct Whole {
         std::vector<std::int16_t> x, coc;

@@ -71,5 +71,36 @@ TEST_F(TileSamplesTest, FewerSamplesLeaveMoreBitsToDepths) {
     }
 }
 
+// A sample so near that no lens point brings it into the tile is left out; one that is brought counts.
+TEST(TileSamples, OneBadDepthMakesUnitsAndDepthsNoCoarser) {
+    struct Found {
+        kernels::TileUnits units;
+        bool is_placed;
+    };
+    const auto with = [](double coc, float lens_x) {
+        const TileFixture tile{
+            [&](int x, int y) { return Samples{opaque_at(x == 8 && y == 8 ? coc : 6, 1)}; },
+            {{lens_x, 0, 0, 0, 1}}};
+        const GatherScene scene = tile.scene();
+        const TileTask task = tile.task();
+        const TileSamples samples(scene, task);
+        const std::size_t number = TileSamplesTest::number(samples, tile.sample(8, 8));
+        const auto word =
+            std::ranges::find(samples.opaque.words, number, [&](CellWord w) { return samples.number_of(w); });
+        return Found{samples.units(),
+                     samples.opaque.places.x[std::size_t(word - samples.opaque.words.begin())] > -32767};
+    };
+    const Found plain = with(6, 1), bad = with(-4e4, 1), seen = with(-4e4, 1e-4f), infinite = with(-1e38, 1);
+    for (const Found &left_out : {bad, infinite}) {
+        EXPECT_FALSE(left_out.is_placed);
+        EXPECT_EQ(left_out.units.unit, plain.units.unit);
+        EXPECT_EQ(left_out.units.codes, plain.units.codes);
+        EXPECT_EQ(left_out.units.farthest, plain.units.farthest);
+    }
+    EXPECT_TRUE(plain.is_placed && seen.is_placed);
+    EXPECT_NEAR(seen.units.widest, 4e4, 4);
+    EXPECT_LT(seen.units.codes, plain.units.codes);
+}
+
 } // namespace
 } // namespace sparselens
