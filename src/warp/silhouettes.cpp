@@ -45,13 +45,13 @@ private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
 
     unsigned char side_of(int x, int y) const;
-    void find_sides_of_full_row(int y);
     std::optional<Mixture> find(int x, int y) const;
     bool is_of_crossed_lamp(int x, int y) const;
     Mixture of_lamp(int x, int y, const Mixture &light) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     enum class Needs { opaque, any };
     std::optional<Estimate> estimate(int x, int y, double depth, Needs needs) const;
+    bool is_disproved(const Position &at, const Mixture &mixture) const;
     Imath::V4d purest(int x, int y, double depth, const Imath::V4d &front, const Imath::V4d &behind) const;
     std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V4d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
@@ -85,36 +85,11 @@ Separation::Separation(const ViewSamples &view, double scale, double jump,
     sides_.assign(view.windows.pixels(), inside);
     if (!samples_.have_colours()) return;
     const ArrayGrid &grid = samples_.grid();
-    const bool full = view.count(0, std::size_t(grid.height())) == grid.size();
     parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
-        if (full) return find_sides_of_full_row(int(y));
         for (int x = 0; x < grid.width(); ++x)
             if (!samples_.is_empty(grid.index(Position(x, int(y)))))
                 sides_[own_sample(x, int(y))] = side_of(x, int(y));
     });
-}
-
-// The same as side_of() for a row of a view without empty pixels, by the least and most depths around.
-void Separation::find_sides_of_full_row(int y) {
-    const ArrayGrid &grid = samples_.grid();
-    const auto width = std::size_t(grid.width());
-    const auto row = [&](int at) { return samples_.depths().subspan(grid.index(Position(0, at)), width); };
-    const std::span<const double> above = row(std::max(y - 1, 0)), own = row(y),
-                                  below = row(std::min(y + 1, grid.height() - 1));
-    std::vector<double> least(width), most(width); // along y
-    for (std::size_t x = 0; x < width; ++x) {
-        const double low = above[x] < below[x] ? above[x] : below[x],
-                     high = above[x] > below[x] ? above[x] : below[x];
-        least[x] = low < own[x] ? low : own[x];
-        most[x] = high > own[x] ? high : own[x];
-    }
-    for (std::size_t x = 0; x < width; ++x) {
-        const std::size_t left = x > 0 ? x - 1 : x, right = x + 1 < width ? x + 1 : x;
-        const bool nearer = std::max({most[left], most[x], most[right]}) > own[x] + jump_;
-        const bool farther = std::min({least[left], least[x], least[right]}) < own[x] - jump_;
-        sides_[grid.index(Position(int(x), y))] =
-            static_cast<unsigned char>(nearer * has_nearer | farther * has_farther);
-    }
 }
 
 unsigned char Separation::side_of(int x, int y) const {
@@ -262,6 +237,14 @@ std::optional<Mixture> Separation::find(int x, int y) const {
     return strands ? strands_before(samples_, x, y, others_) : mixture_of(x, y);
 }
 
+// Whether what a pixel is taken to show behind its own surface is an estimate that another view looks past. A glint, for
+// instance, is not a small share of a lamp that stands beside it.
+bool Separation::is_disproved(const Position &at, const Mixture &mixture) const {
+    return others_ && mixture.share > 0 &&
+           mixture.far_depth < depth_of(own_sample(at.column, at.row)) - jump_ &&
+           others_->see_past(at, mixture.far_depth);
+}
+
 bool Separation::may_be_mixed(std::size_t pixel) const {
     if (samples_.is_empty(pixel)) return false;
     const std::uint64_t own = view_.pixel(pixel).front();
@@ -271,7 +254,8 @@ bool Separation::may_be_mixed(std::size_t pixel) const {
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     const std::uint64_t own = view_.pixel(pixel).front();
     const Position at = samples_.grid().position(pixel);
-    if (const auto mixture = find(at.column, at.row)) emit_mixture(own, *mixture, out);
+    const std::optional<Mixture> mixture = find(at.column, at.row);
+    if (mixture && !is_disproved(at, *mixture)) emit_mixture(own, *mixture, out);
 }
 
 } // namespace

@@ -271,6 +271,15 @@ std::optional<double> BackgroundFromViews::brightest_at(const Position &pixel, d
     return brightest;
 }
 
+bool BackgroundFromViews::see_past(const Position &pixel, double depth) const {
+    bool past = false;
+    for_each_other(pixel, depth, [&](const ViewSamples &samples, std::size_t seen) {
+        past = past || (!samples.pixel(seen).empty() &&
+                        around(samples, seen).nearest < depth - double(one_surface_px));
+    });
+    return past;
+}
+
 std::optional<Imath::V3d> BackgroundFromViews::colour_behind(const Position &pixel, double depth,
                                                              double apart) const {
     Imath::V3d sum(0, 0, 0);

@@ -47,6 +47,10 @@ public:
     // A view with something as near as `nearest` there does not count; returns nothing if none counts.
     std::optional<double> brightest_at(const Position &pixel, double depth, double nearest) const;
 
+    // Whether another flat view looks past a surface of that depth: it shows something there, and nothing as near, neither
+    // there nor beside it.
+    bool see_past(const Position &pixel, double depth) const;
+
 private:
     template <typename Visit>
     void for_each_other(const Position &pixel, double depth, const Visit &visit) const;

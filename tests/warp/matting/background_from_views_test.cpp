@@ -1,5 +1,6 @@
 #include "support/views.h"
 #include "warp/matting/thin_structures.h"
+#include "warp/silhouettes.h"
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,48 @@ TEST(BackgroundFromViews, SayNothingWhereTheSurfaceIsMixedHiddenOrOutside) {
     EXPECT_FALSE(scene.behind(0, 17, 5));              // nothing lies at that depth
     EXPECT_FALSE(scene.behind(0, 1));                  // outside of the other view
     EXPECT_FALSE(Scene({0, 0.2}, 0.5f).behind(0, 17)); // not opaque
+}
+
+TEST(BackgroundFromViews, LookPastWhatLiesNearerThanAllTheyShowThere) {
+    const Scene scene({0, 0.2}), veil({0, 0.2}, 0);
+    const auto past = [](const Scene &of, int x, double depth) {
+        return BackgroundFromViews(of.samples, of.mappings, 0, scale).see_past(Position(x, 4), depth);
+    };
+    EXPECT_TRUE(past(scene, 17, 5));  // the wall's disparity is 2
+    EXPECT_FALSE(past(scene, 17, 2)); // the wall itself
+    EXPECT_FALSE(past(scene, 17, 9)); // the card is beside it
+    EXPECT_FALSE(past(scene, 12, 5)); // the card hides it
+    EXPECT_FALSE(past(scene, 1, 5));  // outside of the other view
+    EXPECT_FALSE(past(veil, 17, 5));  // that may not have been rendered
+    EXPECT_FALSE(past(Scene({0}), 17, 5));
+}
+
+// A card with a glint on its last pixel, beside which the centre view shows a lamp at depth 10, before the sky: the glint
+// is no part of the lamp if the other view shows the sky behind the card.
+TEST(BackgroundFromViews, AGlintIsNoPartOfALampThatIsNotBehindIt) {
+    for (const bool lamp_behind : {false, true}) {
+        std::vector<View> views;
+        std::vector<ViewSamples> samples;
+        std::vector<ViewMapping> mappings;
+        for (const double camera : {0.0, 0.2})
+            views.push_back(make_view(windows_of_size(width, 9), {camera, 0}, [&](int x, int) {
+                const double card = x + 0.5 + focal_px * camera / 2, lamp = x + 0.5 + focal_px * camera / 10;
+                if (card > 15 && card < 20) return ViewPixel{.z = 2, .r = card > 19 ? 50.045f : 0.05f};
+                const bool shines = camera == 0 ? lamp > 20 && lamp < 22 : lamp_behind && lamp > 18;
+                return ViewPixel{.z = shines ? 10.0f : 1000.0f, .r = shines ? 500.0f : 0.3f};
+            }));
+        for (const View &view : views) {
+            samples.emplace_back(view, view.image.channels);
+            mappings.emplace_back(view.position, focal_px, view.image.windows);
+        }
+        const BackgroundFromViews others(samples, mappings, 0, scale);
+        ViewSamples own(views[0], views[0].image.channels);
+        separate_silhouettes(own, scale, 0.5, {}, &others);
+        const Ldi ldi = own.as_ldi();
+        const SampleRange glint = ldi.pixel(std::size_t(4 * width + 19));
+        EXPECT_EQ(glint.size(), lamp_behind ? 2u : 1u);
+        EXPECT_EQ(ldi.values[0][glint.front()] > 40, !lamp_behind);
+    }
 }
 
 // A dark card at depth 2 before a dark wall at depth 10. In the centre view, the card's last pixel and the wall's first
