@@ -34,7 +34,7 @@ dof/lens/lens_gather.h lens_tile_size
 dof/lens/sample_blocks.h background size
 dof/lens/tile_projection.cpp least_unit most
 dof/lens/tile_projection.h lanes
-dof/lens/tile_samples.cpp beside most_depth tested_from
+dof/lens/tile_samples.cpp most_depth tested_from
 dof/methods.cpp ids_at_once
 dof/merge_layers.h layer_tolerance_px
 dof/selective/splats.h sums_before_colours

@@ -34,7 +34,10 @@ void WholePlaces::add(const kernels::TileUnits &units, const Imath::V2f &middle,
     whole_places(units, middle.x, from_x, samples, x.data() + first);
     whole_places(units, middle.y, from_y, samples, y.data() + first);
     whole_cocs(units, from_coc, samples, coc.data() + first);
-    const auto leave_out = [&](std::size_t i) { x[i] = y[i] = -32767, coc[i] = 0; };
+    const auto leave_out = [&](std::size_t i) {
+        x[i] = y[i] = -32767;
+        coc[i] = 0;
+    };
     for (std::size_t i = end; i < padded; ++i) leave_out(i);
     for (std::size_t i = 0; i < samples; ++i)
         if (std::abs(from_coc[i]) > units.widest) leave_out(first + i);
