@@ -6,6 +6,7 @@
 #include "chain/parameters.h"
 #include "deep/flatten.h"
 #include "dof/border_reach.h"
+#include "dof/edge_mattes.h"
 #include "dof/false_colour.h"
 #include "dof/gather_rows.h"
 #include "dof/grain.h"
@@ -157,7 +158,7 @@ private:
         const auto gather_by = [&](TileDevice *device) {
             by_.gather.lens.device = device;
             if (!needs_gather(request_.show)) return;
-            Image all = frame_.picture_of(with_grain());
+            Image all = frame_.picture_of(picture_itself());
             for (const std::string &warning : lost_matte_warnings(all))
                 work_.notify({NoticeKind::file_warning, in_.name, {warning}});
             out_.image = chosen_channels(std::move(all), request_.channels);
@@ -169,16 +170,23 @@ private:
         if (request_.show != Show::picture) out_.image = frame_.picture_of(crop(shown(), frame_.needed));
     }
 
-    Image with_grain() {
-        const double strength = in_.depth == DepthMeaning::disparity ? request_.grain.value_or(1) : 0;
-        const bool blurs = request_.show == Show::picture && request_.picture.method->by_lens_points;
+    // A photograph has its edges in two layers while it is gathered, and then gets its grain.
+    Image picture_itself() {
+        if (in_.depth != DepthMeaning::disparity || request_.show != Show::picture ||
+            !request_.picture.method->by_lens_points || lens_.radius == 0)
+            return gathered();
         const int bits = extras_of(in_.header).value_or(ShownExtras{.bits = 0}).bits;
-        const Grain grain = strength > 0 && blurs && lens_.radius > 0 ? measure_grain(ldi(), bits) : Grain();
-        if (grain.none()) return gathered();
+        const Grain grain = request_.grain == 0.0 ? Grain() : measure_grain(ldi(), bits);
         if (!frame_.changed) frame_.changed = own_ ? std::move(*own_) : in_.ldi;
-        add_kept_share(*frame_.changed, lens_);
+        const std::size_t channels = frame_.changed->channels.size();
+        frame_.changed = matte_edges(std::move(*frame_.changed), lens_);
+        if (!grain.none()) add_kept_share(*frame_.changed, lens_);
         Image picture = gathered();
-        add_grain(grain, float(strength), std::uint32_t(work_.frame), out_.tiles, frame_.gathered, picture);
+        if (!grain.none())
+            add_grain(grain, float(request_.grain.value_or(1)), std::uint32_t(work_.frame), out_.tiles,
+                      frame_.gathered, picture);
+        picture.channels.resize(channels); // without those that were added
+        picture.values.resize(channels * picture.windows.pixels());
         return picture;
     }
 

@@ -157,8 +157,6 @@ void add_grain(const Grain &grain, float strength, std::uint32_t frame, const Le
             }
         }
     });
-    picture.channels.pop_back();
-    picture.values.resize(picture.channels.size() * picture.windows.pixels());
 }
 
 } // namespace sparselens

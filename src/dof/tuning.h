@@ -114,6 +114,13 @@ struct GatherTuning {
     static constexpr double grain_quantile = 0.1, grain_rim = 1.5;
     static constexpr float grain_of_quantile = 0.79f;
 
+    // Edges of photographs (edge_mattes.h). Pixels that an edge of the depth may lie off that of the picture; the least
+    // jump of disparity, pixels; the share of it that is none; a smaller share of a pixel is none; the farthest that a
+    // colour may lie off the line, as a share of the contrast.
+    static constexpr int matte_reach_px = 5;
+    static constexpr float matte_least_px = 1, matte_same = 0.25f;
+    static constexpr double matte_least_share = 0.05, matte_residual = 0.15;
+
     // The selective gather (selective/splats.h). The width of a depth bin, pixels of CoC: 0.25 gains nothing, 1 loses
     // 0.5 dB on thin blades of grass.
     static constexpr double bin_px = 0.5;
