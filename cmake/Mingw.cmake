@@ -17,3 +17,4 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ENV{PKG_CONFIG_LIBDIR} ${SPARSELENS_SYSROOT}/lib/pkgconfig)
 set(PKG_CONFIG_ARGN --static)
+set(CMAKE_CROSSCOMPILING_EMULATOR env WINEDEBUG=-all wine) # for programs that the build makes and runs

@@ -81,7 +81,7 @@ void add_options(CLI::App &app, ViewOptions &options) {
                    "Folder for pictures that the page saves (default: the page saves nothing)")
         ->type_name("DIR");
     app.add_flag("--open", options.open, "Open the page in the browser");
-    add_pipe_option(app, options.pipe);
+    if (has_pipe) add_pipe_option(app, options.pipe);
     add_examples(app, {{"Look at an LDI in a browser, at the address that is printed", "dof-view ldi.exr"},
                        {"Look at a sequence", "dof-view shot.####.ldi.exr --frames 1-48"},
                        {"... beside the ray-traced picture, at a port of your choice",
@@ -104,7 +104,8 @@ int view(const std::vector<std::string> &words, const FrameCommands &frames) {
     add_options(app, options);
     if (std::ranges::find(words, "--pipe") != words.end()) app.get_option("IN")->required(false);
     return run_tool(app, frames.words(0), [&](const ToolContext &tool) {
-        if (options.pipe) return answer_pipe(tool);
+        if constexpr (has_pipe)
+            if (options.pipe) return answer_pipe(tool);
         options.presets = installed_lenses();
         for (const std::string &text : frames.warnings()) warn(tool, text);
         Viewer viewer(options, words, frames, tool);

@@ -18,7 +18,7 @@ demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
-windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64'
+windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev pybind11-dev python3-dev wine wine64'
 test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
       munge mypy nodejs openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'

@@ -83,6 +83,17 @@ if $all; then
     "$here/tools/arm.sh" "$out"
     "$here/tools/windows.sh" "$out"
     addon "$out/$name-windows-x86_64.zip" "sparselens_blender-$version-windows.zip"
+    # The wheel for Windows has the same description. Its folder Scripts is on the PATH.
+    rm -r "$root/sparselens" "$data" "$root/$name.dist-info/licences-of-libraries"
+    cmake -E chdir "$root/$name.data" cmake -E tar xf "$out/$name-windows-x86_64.zip"
+    mv "$root/$name.data/$name-windows-x86_64" "$data"
+    mv "$data/bin" "$root/$name.data/scripts"
+    mv "$data/licences" "$root/$name.dist-info/licences-of-libraries"
+    rm -r "$data/README.txt" "$data/share/doc"
+    logged cmake --install "$here/build-windows" --prefix "$root" --strip --component python
+    logged "$work/python/bin/wheel" pack --dest-dir "$work/windows" "$root"
+    logged "$work/python/bin/wheel" tags --remove --platform-tag win_amd64 "$work"/windows/*.whl
+    cp "$work"/windows/*.whl "$out/"
     bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz" "$out/$name-windows-x86_64.zip"
 fi
 
@@ -100,11 +111,13 @@ row() { # FOR WHOM|WHAT TO DO|PATTERN
     for machine in "x86_64|x86-64" "aarch64|64-bit ARM"; do
         row "A command line, any Linux on ${machine#*|}|<code>tar xf FILE; export PATH=\$PWD/$name-linux-${machine%|*}/bin:\$PATH; dof-gather --help</code>|$name-linux-${machine%|*}.tar.xz"
     done
-    row "A command line, Windows 10 (not dof-view)|Unpack, and put its folder <code>bin</code> on the PATH.|$name-windows-x86_64.zip"
+    row "A command line, Windows 10|Unpack, and put its folder <code>bin</code> on the PATH.|$name-windows-x86_64.zip"
     for system in linux windows; do
         row "Blender 3.4 to 5.2 on ${system^}|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*-$system.zip"
     done
-    row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*.whl"
+    for system in linux windows; do
+        row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])') on ${system^}|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*$([ $system = linux ] && echo linux || echo win)*.whl"
+    done
     row "Hosts of OpenFX|Unpack into <code>/usr/OFX/Plugins</code>, and the first file; <code>SPARSELENS_BIN</code> names its bin.|*-openfx-*"
     row "Programs with OpenImageIO $images|Unpack; <code>OIIO_LIBRARY_PATH</code> names that folder, <code>SPARSELENS_BIN</code> the first file's bin.|*-openimageio-*"
     for package in "sparselens:the tools" "python3-sparselens:the module for Python" "libsparselens-dev:the C++ library" "sparselens-lab:test scenes"; do

@@ -24,8 +24,9 @@ logged() { "$@" >"$build/log" 2>&1 </dev/null || fail "$* ($(tail -n 20 "$build/
 
 say "the libraries"
 mingw=/usr/x86_64-w64-mingw32
-cp -r /usr/include/{CLI,nlohmann} $mingw/include/z{lib,conf}.h "$root/include/"
-cp -r /usr/share/cmake/{CLI11,nlohmann_json} "$root/share/cmake/"
+cp -r /usr/include/{CLI,nlohmann,pybind11} $mingw/include/z{lib,conf}.h "$root/include/"
+ln -sfn /usr/include/boost "$root/include/boost"
+cp -r /usr/share/cmake/{CLI11,nlohmann_json} /usr/lib/cmake/pybind11 "$root/share/cmake/"
 cp $mingw/lib/libz.a "$root/lib/"
 sed "s,$mingw,$root," $mingw/lib/pkgconfig/zlib.pc >"$root/lib/pkgconfig/zlib.pc"
 unpacked() { # SHA256 SOURCE: Debian's source, in $folder; false if it is built already
@@ -59,6 +60,18 @@ if unpacked $newlib n/newlib/newlib_3.3.0.orig.tar.gz; then
     )
     touch "$folder/$newlib"
 fi
+# The module for Python needs its headers, and the names in its DLL, which are those of Debian's.
+python=$(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])') dll=python${python/./}
+headers=2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849
+if unpacked $headers p/python3.11/python3.11_3.11.2.orig.tar.gz; then
+    cp -r "$folder/Include" "$root/include/python$python"
+    cp "$folder/PC/pyconfig.h" "$root/include/python$python/"
+    printf 'LIBRARY %s.dll\nEXPORTS\n' $dll >"$folder/made/names.def"
+    nm -D --defined-only "/usr/lib/x86_64-linux-gnu/libpython$python.so.1.0" |
+        awk '$3 ~ /^_?Py/ { print $3, $2 ~ /[BDRV]/ ? "DATA" : "" }' >>"$folder/made/names.def"
+    logged x86_64-w64-mingw32-dlltool -d "$folder/made/names.def" -l "$root/lib/lib$dll.dll.a"
+    touch "$folder/$headers"
+fi
 library 84ce1c2d0be3a9863935137969dcec6970125caac032f82474640bfc81463583 f/fmtlib/fmtlib_9.1.0+ds1.orig.tar.gz . -DFMT_TEST=OFF -DFMT_DOC=OFF
 library ea5592230f5ab917bea3ceab266cf38eb4aa4a523078d46eac0f5a89c52304db i/imath/imath_3.1.6.orig.tar.gz .
 library 7e9111b8bb59c8800bf6d0b06afe7b0891937443d2dae1ee1101c8e2ede6a7ef o/onetbb/onetbb_2021.8.0.orig.tar.xz . \
@@ -79,12 +92,14 @@ library 516420206151e76b5515f5ae7e976c97a9920b13dbfb50ceada1dc4bd67116de o/openc
 # OpenColorIO tells only Linux what it needs. Names of ours are macros in windows.h, which oneTBB includes.
 printf '%s\n' 'Name: OpenColorIO' 'Description: colours' 'Version: 2.1.3' "Cflags: -I$root/include" \
     "Libs: -L$root/lib -lOpenColorIO -lyaml-cpp -lpystring -lexpat -lImath-3_1" >"$root/lib/pkgconfig/OpenColorIO.pc"
-grep -rl '#.*include <windows.h>' "$root/include" | xargs grep -LZ '^#undef near' |
-    xargs -0r sed -i '/#.*include <windows.h>/a #undef near\n#undef far'
+grep -rl '#.*include <windows.h>' "$root/include" |
+    xargs -d '\n' sed -i -e '/^#undef \(near\|far\)$/d' -e '/#.*include <windows.h>/a #undef near\n#undef far'
 
 say "the build"
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Mingw.cmake" -DSPARSELENS_SYSROOT="$root" -DHELP2MAN=OFF \
-    -DSPARSELENS_{BENCHMARKS,TESTS,PYTHON,LAB,GPU,BUNDLE}=OFF --log-level=WARNING
+    -DSPARSELENS_{BENCHMARKS,TESTS,LAB,GPU,BUNDLE}=OFF -DSPARSELENS_PYTHON{=ON,_DIR=.} -DPython_EXECUTABLE=/usr/bin/python3 \
+    -DPython_INCLUDE_DIR="$root/include/python$python" -DPython_LIBRARY="$root/lib/lib$dll.dll.a" \
+    -DP{YTHON_MODULE_EXTENSION=.cp${python/./}-win_amd64.pyd,YBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3} --log-level=WARNING
 cmake --build "$build" -j "$(nproc)"
 
 say "the archive"
@@ -95,14 +110,14 @@ trap 'rm -rf "$work"' EXIT
 logged cmake --install "$build" --prefix "$work/$name" --strip --component tools
 mkdir "$work/$name/licences"
 cp "$here/LICENSE" "$work/$name/licences/sparselens.txt"
-for package in g++-mingw-w64-x86-64-posix mingw-w64-x86-64-dev libz-mingw-w64-dev libcli11-dev nlohmann-json3-dev; do
+for package in "$(dpkg-query -W -f='${Depends}' libboost-dev)" g++-mingw-w64-x86-64-posix mingw-w64-x86-64-dev libz-mingw-w64-dev libcli11-dev nlohmann-json3-dev; do
     cp -L "/usr/share/doc/$package/copyright" "$work/$name/licences/$package.txt"
 done
 for folder in "$root"/sources/*/; do
     cat "$folder"/{LICENSE,COPYING}* "$folder"/*/COPYING >"$work/$name/licences/$(basename "$folder").txt" 2>/dev/null || true
 done
 for file in "$work/$name"/bin/*.exe "$work/$name"/lib/sparselens/*.dll; do
-    strangers=$(x86_64-w64-mingw32-objdump -p "$file" | sed -nE 's/.*DLL Name: //p' | grep -viE '^(kernel32|user32|gdi32|advapi32|msvcrt|shell32)\.dll$' || true)
+    strangers=$(x86_64-w64-mingw32-objdump -p "$file" | sed -nE 's/.*DLL Name: //p' | grep -viE '^(kernel32|user32|gdi32|advapi32|msvcrt|shell32|ws2_32|mswsock)\.dll$' || true)
     [ -z "$strangers" ] || fail "${file##*/} needs $strangers"
 done
 cat >"$work/$name/README.txt" <<END

@@ -58,7 +58,8 @@ class Viewing:
 def _program():
     """Returns the path of the dof-view that was installed or built with this module, else of the first one in $PATH."""
     here = pathlib.Path(__file__).resolve().parent
-    for path in (here.parents[1] / "bin/dof-view", pathlib.Path(sys.prefix) / "bin/dof-view"):
+    prefix = pathlib.Path(sys.prefix)
+    for path in (here.parents[1] / "bin/dof-view", prefix / "bin/dof-view", prefix / "Scripts/dof-view.exe"):
         if path.is_file():
             return str(path)
     found = shutil.which("dof-view")

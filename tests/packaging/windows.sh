@@ -1,6 +1,7 @@
 # The archive for Windows, by wine with a new prefix: the README's sixty seconds, names with spaces and letters beyond ASCII,
-# long names, replaced files, binary pipes, damaged files.
-#   bash windows.sh BIN_DIR ARCHIVE [FOLDER]     FOLDER: fifty damaged EXR files or more, by its whole path
+# long names, replaced files, binary pipes, dof-view's answers, damaged files, the wheel.
+#   bash windows.sh BIN_DIR ARCHIVE [FOLDER [WHEEL PYTHON]]     FOLDER: fifty damaged EXR files or more; WHEEL: the one for
+#                                                               Windows; PYTHON: the folder of its Python
 . "$(dirname "$0")/../tools/check.sh"
 . "$source_dir/tests/packaging/windows-programs.sh"
 [ $# -ge 2 ] || fail "name an archive of tools/windows.sh"
@@ -38,6 +39,10 @@ cp here/fence.ldi.exr "$far/ldi.exr"
 fails_saying 2 'would overwrite the input' "$there/dof-gather" "$far/ldi.exr" -o "$far/../${far##*/}/ldi.exr"
 [ "$(find "$far" -type f | wc -l)" -eq 2 ] || fail "temporary files are left: $(ls -a "$far")"
 
+# dof-view answers its page, and refuses what it does not know.
+traced fence 96x54 small
+exits 0 python3 "$source_dir/tests/viewing/protocol.py" "$there" views/ldi.exr views/reference.exr small/ldi.exr
+
 # Damaged files: one line for each, and no crash.
 files=0
 for file in ${3+"$3"/*}; do
@@ -48,4 +53,23 @@ for file in ${3+"$3"/*}; do
     files=$((files + 1))
 done
 [ $# -eq 2 ] || [ $files -ge 50 ] || fail "$3 has only $files files"
+
+# The module and the tools of the wheel make the same pictures.
+if [ $# -eq 5 ]; then
+    python3 -m venv pip
+    exits 0 pip/bin/pip -q install --target packages --platform win_amd64 --python-version "$(wine "$5/python.exe" -c \
+        'import sys; print("%d.%d" % sys.version_info[:2])' </dev/null | tr -d '\r')" --only-binary :all: "$4" 'numpy<2'
+    cat >use.py <<'PYTHON'
+import sparselens
+
+ldi = sparselens.open_ldi("here/fence.ldi.exr")
+sparselens.write("module.exr", sparselens.gather(ldi))
+sparselens.write("module.png", sparselens.gather(ldi, focus_distance=2.2))
+with sparselens.view(ldi) as server:
+    assert server.address.startswith("http://127.0.0.1:"), server
+PYTHON
+    PATH=$PWD/packages/Scripts:$PATH PYTHONPATH=packages exits 0 wine "$5/python.exe" use.py
+    cmp module.exr here/as-rendered.exr || fail "the module makes another picture"
+    idiff -q module.png here/focus-on-the-fence.png >stdout || fail "the module makes another PNG"
+fi
 echo "$(basename "$2"): the same files, and $files damaged files without a crash"

@@ -16,6 +16,12 @@ namespace sparselens {
 
 inline constexpr int pipe_version = 2;
 
+#ifdef _WIN32 // which has no descriptor 3
+inline constexpr bool has_pipe = false;
+#else
+inline constexpr bool has_pipe = true;
+#endif
+
 // Returns at the end of standard input. Throws UsageError if descriptor 3 is no file that can be written.
 void answer_pipe(const ToolContext &tool);
 
