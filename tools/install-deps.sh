@@ -11,7 +11,7 @@ release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-rele
 arm='debootstrap g++-aarch64-linux-gnu qemu-user-static'
 blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libboost-dev libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
-       libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
+       libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev openimageio-tools'
 bundle='help2man xz-utils'
 ci=ccache
 demo='fonts-dejavu-core openimageio-tools'
@@ -20,7 +20,7 @@ lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
 windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev pybind11-dev python3-dev wine wine64'
 test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
-      munge mypy nodejs openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
+      munge mypy nodejs openexr pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
 # Differences between releases. The sources are formatted by clang-format 14, which only Debian 12 has; the extensions
 # of Blender 5 need modules that its package lacks; the packages for wheels are in Debian 13 and later.

@@ -3,6 +3,7 @@ LDI and REFERENCE have 160x90 pixels, the LDI SMALL 96x54. The load takes longes
 import concurrent.futures
 import contextlib
 import json
+import ntpath
 import os
 import pathlib
 import re
@@ -289,7 +290,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, served(program, ldi, "--save", folder) as server:
         assert not os.listdir(folder)
         files = [server.said("/save", settings={})["file"] for _ in range(2)]
-        assert sorted(os.listdir(folder)) == sorted(map(os.path.basename, files)) and len(set(files)) == 2, files
+        assert sorted(os.listdir(folder)) == sorted(map(ntpath.basename, files)) and len(set(files)) == 2, files
     with tempfile.TemporaryDirectory() as folder:
         knows_frames(folder)
         matches_plates(folder)

@@ -209,6 +209,7 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
 GatherCommand command_of(const Words &words, const std::string &output) {
     GatherCommand options;
     CLI::App app("", "dof-gather");
+    app.allow_windows_style_options(false); // /views/ldi.exr is a file
     add_gather_options(app, options);
     Words all = words;
     all.insert(all.end(), {"-o", output});
