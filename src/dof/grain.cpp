@@ -71,12 +71,13 @@ float Grain::deviation(std::size_t channel, float brightness) const {
 namespace {
 
 std::vector<Grain::Group> groups_of(const Ldi &ldi, std::span<const std::size_t> channels, int bits) {
-    const Imath::Box2i &data = ldi.windows.data;
-    const int first = floor_div(data.min.y, side), rows = floor_div(data.max.y, side) - first + 1;
+    const Imath::V2i origin = ldi.windows.display.min; // a moved picture has the same blocks
+    const Imath::V2i least = ldi.windows.data.min - origin, most = ldi.windows.data.max - origin;
+    const int first = floor_div(least.y, side), rows = floor_div(most.y, side) - first + 1;
     std::vector<Block> blocks = joined(std::size_t(rows), [&](std::size_t row) {
         std::vector<Block> found;
-        for (int x = floor_div(data.min.x, side); x <= floor_div(data.max.x, side); ++x)
-            if (const auto block = measured(ldi, channels, {x * side, (first + int(row)) * side}))
+        for (int x = floor_div(least.x, side); x <= floor_div(most.x, side); ++x)
+            if (const auto block = measured(ldi, channels, origin + Imath::V2i(x, first + int(row)) * side))
                 found.push_back(*block);
         return found;
     });
@@ -147,7 +148,9 @@ void add_grain(const Grain &grain, float strength, std::uint32_t frame, const Le
             if (tiles.lens_points[std::size_t(tile.y * tiles.columns + tile.x)] == 0) continue;
             const float lost = (alpha == npos ? 1 : picture.plane(alpha)[i]) - picture.plane(kept)[i];
             if (!(lost > 0)) continue;
-            const std::uint32_t seed = mix_bits(std::uint32_t(at.x), mix_bits(std::uint32_t(at.y), frame));
+            const Imath::V2i place = at - picture.windows.display.min;
+            const std::uint32_t seed =
+                mix_bits(std::uint32_t(place.x), mix_bits(std::uint32_t(place.y), frame));
             for (std::size_t k = 0; k < 3; ++k) {
                 float &value = picture.plane(rgb[k])[i];
                 const float noise =
