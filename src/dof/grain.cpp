@@ -42,12 +42,21 @@ std::optional<Block> measured(const Ldi &ldi, std::span<const std::size_t> chann
     return Block{float(sum / (side * side)), float(squares / (36 * side * side))};
 }
 
-// The slope of sRGB is 1 / 12.92 in the dark.
+// One of `steps` that sRGB has from 0 to 1, in linear light. Its slope is 1 / 12.92 in the dark.
+float step_of(float brightness, float steps) {
+    return std::max(2.28f * std::pow(std::max(brightness, 0.0f), 1 - 1 / 2.4f), 1 / 12.92f) / steps;
+}
+
 float variance_of_rounding(float brightness, int bits) {
     if (bits == 0) return 0;
-    const float slope = 2.28f * std::pow(std::max(brightness, 0.0f), 1 - 1 / 2.4f);
-    const float step = std::max(slope, 1 / 12.92f) / (std::exp2(float(bits)) - 1);
+    const float step = step_of(brightness, std::exp2(float(bits)) - 1);
     return step * step / 12;
+}
+
+// In steps that a display of 8 bits can show.
+float shown_variance(const Grain::Group &group) {
+    const float shown = group.deviation / step_of(group.brightness, 255);
+    return shown * shown;
 }
 
 // Nearly normal, variance 1: the sum of four bytes.
@@ -109,12 +118,14 @@ Grain measure_grain(const Ldi &photograph, int bits) {
     const auto add = [](double sum, const Grain::Group &group) {
         return sum + double(group.deviation * group.deviation);
     };
-    double variances = 0;
+    double variances = 0, shown = 0;
+    std::size_t count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         grain.groups[k] = groups_of(photograph, {&rgb[k], 1}, bits);
         variances = std::accumulate(grain.groups[k].begin(), grain.groups[k].end(), variances, add);
+        for (const Grain::Group &group : grain.groups[k]) shown += double(shown_variance(group)), ++count;
     }
-    if (variances == 0) return {};
+    if (shown <= GatherTuning::grain_shown * double(count)) return {};
     const auto of_mean = groups_of(photograph, rgb, 0); // has (1 + 2 correlation) / 3 of the mean variance
     const double variance = std::accumulate(of_mean.begin(), of_mean.end(), 0.0, add);
     grain.correlation = float(std::clamp(4.5 * variance / variances - 0.5, 0.0, 1.0));

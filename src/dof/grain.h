@@ -5,8 +5,8 @@
 //
 // s, in the linear values of R, G and B, is measured in blocks of 16 x 16 pixels: a pixel filtered by [1 -2 1] across and
 // down has the variance 36 s^2 (J. Immerkaer, "Fast noise variance estimation", 1996). Texture adds to it, so a low quantile
-// of blocks as bright is the noise, once it is divided by that quantile of noise alone. The variance of rounding is
-// none of it. Groups of as many blocks, sorted by brightness, need no scale of brightness.
+// of blocks as bright is the noise, once it is divided by that quantile of noise alone. The variance of rounding is none of
+// it, and less than half a step of 8 bits is no grain. Groups of as many blocks, sorted by brightness, need no scale of it.
 //
 // A disc of radius r in square pixels covers about pi r^2 + 1.5 r + 1 of them evenly, so that each sample keeps one part in
 // as many, and sum w^2, which is the mean of w with weights w, is gathered as a further channel of the LDI.

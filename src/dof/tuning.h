@@ -109,9 +109,10 @@ struct GatherTuning {
 
     // Grain (grain.h). Groups of blocks, at most, and blocks of each, at least. The quantile of their variances that is
     // noise, and the part of its variance that noise alone has there (chi squared of 68 degrees of freedom, as many as
-    // 256 pixels have of which neighbours are alike). Pixels that a pixel of radius adds to a disc at its rim.
+    // 256 pixels have of which neighbours are alike). Pixels that a pixel of radius adds to a disc at its rim. The variance
+    // that an eye does not see, squares of the steps that a display of 8 bits has.
     static constexpr std::size_t grain_groups = 16, grain_group_least = 32;
-    static constexpr double grain_quantile = 0.1, grain_rim = 1.5;
+    static constexpr double grain_quantile = 0.1, grain_rim = 1.5, grain_shown = 0.25;
     static constexpr float grain_of_quantile = 0.79f;
 
     // The selective gather (selective/splats.h). The width of a depth bin, pixels of CoC: 0.25 gains nothing, 1 loses

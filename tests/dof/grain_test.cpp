@@ -112,8 +112,11 @@ TEST(Grain, LeavesWhatIsInFocusAndOtherChannels) {
                 }
 }
 
-// Renders, and what has no noise: flat parts between texture, and light that is rounded to 8 bits.
+// Renders, and what has no noise that shows: flat parts between texture, and light that is rounded to 8 bits.
 TEST(Grain, IsNothingWithoutNoise) {
+    const OpenedLdi faint = photograph({.constant = 2e-7}), seen = photograph({.constant = 2e-6});
+    EXPECT_EQ(taken(faint, 6).values, taken(faint, 6, 0).values);
+    EXPECT_NE(taken(seen, 6).values, taken(seen, 6, 0).values);
     OpenedLdi in = photograph({.texture = 0.1});
     in.header.insert("photograph:bits", Imf::IntAttribute(8));
     EXPECT_EQ(taken(in, 6).values, taken(in, 6, 0).values);
