@@ -41,7 +41,11 @@ Stats gather_stats(const LdiCache &cache, const TakenPicture &picture) {
 }
 
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
-    TakenPicture made = take_moments(cache, tool.keeps, options, {*tool.progress, tool.notify(), &device});
+    TakenPicture made = take_moments(cache, tool.keeps, options,
+                                     {.progress = *tool.progress,
+                                      .notify = tool.notify(),
+                                      .device = &device,
+                                      .frame = tool.frame.value_or(0)});
     std::optional<Timed> writing(std::in_place, *tool.progress, "write");
     append_history(made.header, tool, options.history);
     const Stats stats = gather_stats(cache, made);

@@ -263,6 +263,12 @@ Rows<PictureRequest> gather_rows() {
                             usual.layer_tolerance),
                 at_least_0),
          in(picture, &PictureOptions::layer_tolerance)},
+        {keyed(
+             number("grain", "F",
+                    "Noise for what is blurred in a photograph, as a factor of the noise that blur took away "
+                    "(default: 1)",
+                    at_least_0)),
+         in(&PictureRequest::grain)},
         {text("holdout", "DEEP.exr",
               "Deep EXR that hides what is behind it, but is not shown; its edges stay sharp (default: none)",
               Form::ldi),

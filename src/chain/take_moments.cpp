@@ -136,7 +136,7 @@ private:
         request_.picture.gather.lens.share =
             share_of_moment(int(moment), int(moments_.size()), request_.rolling_shutter);
         request_.picture.gather.lens.paths = paths_.empty() ? nullptr : &paths_[moment];
-        PictureWork work{progress_.next(), notify_, work_.device, nullptr, looks()};
+        PictureWork work{progress_.next(), notify_, work_.device, nullptr, looks(), work_.frame};
         TakenPicture picture = moments_[moment].take(request_, work);
         require_moment({moments_[moment].name, picture}, moment, moments_.size());
         return picture;

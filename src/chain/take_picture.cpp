@@ -8,9 +8,11 @@
 #include "dof/border_reach.h"
 #include "dof/false_colour.h"
 #include "dof/gather_rows.h"
+#include "dof/grain.h"
 #include "io/camera/camera_header.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_header.h"
+#include "io/photograph.h"
 #include "lens/photograph.h"
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
@@ -109,6 +111,8 @@ private:
             work_.notify({.kind = NoticeKind::used_lens,
                           .values = {out_.lens.radius, out_.lens.focal_px, out_.lens.focus}});
         const PhotographBlur blur = request_.blur.value_or(PhotographBlur());
+        if (request_.grain && in_.depth != DepthMeaning::disparity)
+            throw UsageError("`grain`: is for photographs, whose depth is a disparity (`disparity`)");
         if (const double change = blur.in_pixels(in_.ldi.windows.display_width()) * in_.flicker;
             change > 0.5) // pixels: it is seen
             work_.notify({NoticeKind::flicker, in_.name, {change}});
@@ -153,7 +157,7 @@ private:
         const auto gather_by = [&](TileDevice *device) {
             by_.gather.lens.device = device;
             if (!needs_gather(request_.show)) return;
-            Image all = frame_.picture_of(gathered());
+            Image all = frame_.picture_of(with_grain());
             for (const std::string &warning : lost_matte_warnings(all))
                 work_.notify({NoticeKind::file_warning, in_.name, {warning}});
             out_.image = chosen_channels(std::move(all), request_.channels);
@@ -163,6 +167,19 @@ private:
         else
             gather_by(nullptr);
         if (request_.show != Show::picture) out_.image = frame_.picture_of(crop(shown(), frame_.needed));
+    }
+
+    Image with_grain() {
+        const double strength = in_.depth == DepthMeaning::disparity ? request_.grain.value_or(1) : 0;
+        const bool blurs = request_.show == Show::picture && request_.picture.method->by_lens_points;
+        const int bits = extras_of(in_.header).value_or(ShownExtras{.bits = 0}).bits;
+        const Grain grain = strength > 0 && blurs && lens_.radius > 0 ? measure_grain(ldi(), bits) : Grain();
+        if (grain.none()) return gathered();
+        if (!frame_.changed) frame_.changed = own_ ? std::move(*own_) : in_.ldi;
+        add_kept_share(*frame_.changed, lens_);
+        Image picture = gathered();
+        add_grain(grain, float(strength), std::uint32_t(work_.frame), out_.tiles, frame_.gathered, picture);
+        return picture;
     }
 
     Image gathered() {

@@ -55,6 +55,7 @@ enum class Show { picture, coc, focus, layers, tiles };
 struct PictureRequest : LdiRequest {
     std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; empty: `lens` has it
     std::optional<PhotographBlur> blur = {};    // of a photograph, in place of a lens
+    std::optional<double> grain = {};           // a factor of the photograph's own (dof/grain.h); empty: 1
     GivenLooks looks = {};
     WindowOptions windows = {};
     bool any_quality = true;     // none is asked for: a photograph is gathered at final quality
@@ -82,6 +83,7 @@ struct PictureWork {
     GatherDevice *device = nullptr;   // finds the device of the request; null: the CPU works
     const TileWatch *watch = nullptr; // told about tiles, if they are pixels of the picture
     LooksReader *looks = nullptr;     // keeps the files that it reads
+    int frame = 0;                    // the seed of the grain
 };
 
 struct TakenPicture {

@@ -3,6 +3,8 @@
 // shares are in src/kernels.
 #pragma once
 
+#include <cstddef>
+
 namespace sparselens {
 
 struct GatherTuning {
@@ -104,6 +106,14 @@ struct GatherTuning {
     static constexpr double noise_times = 5;
     // Pixels of CoC, beyond which the blur of interpolation does not show (footprints/interpolation_blur.h).
     static constexpr double interpolated_px = 4;
+
+    // Grain (grain.h). Groups of blocks, at most, and blocks of each, at least. The quantile of their variances that is
+    // noise, and the part of its variance that noise alone has there (chi squared of 68 degrees of freedom, as many as
+    // 256 pixels have of which neighbours are alike). Pixels that a pixel of radius adds to a disc at its rim. The variance
+    // that an eye does not see, squares of the steps that a display of 8 bits has.
+    static constexpr std::size_t grain_groups = 16, grain_group_least = 32;
+    static constexpr double grain_quantile = 0.1, grain_rim = 1.5, grain_shown = 0.25;
+    static constexpr float grain_of_quantile = 0.79f;
 
     // The selective gather (selective/splats.h). The width of a depth bin, pixels of CoC: 0.25 gains nothing, 1 loses
     // 0.5 dB on thin blades of grass.

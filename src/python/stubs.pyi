@@ -319,6 +319,8 @@ def gather(
     lens_samples: Optional[int] = 0,  # points of the lens in every tile, 0: as many as the quality needs; for the method lens.
     layer_tolerance: Optional[float] = 0.25,  # pixels. Layers of a pixel whose circles of confusion differ by less are merged
     # first; 0: none; for the method lens.
+    grain: Optional[float] = 1,  # noise for what is blurred in a photograph, as a factor of the noise that blur took away; for the
+    # method lens.
     layers: Optional[int] = 8,  # the number of layers kept apart in a pixel; for the method selective.
     focus_pixel: Optional[tuple[int, int]] = None,  # (x, y), focuses on the front surface in this pixel of the picture, instead
     # of focus_distance (default, of a photograph: on the nearest large thing near its middle).

@@ -15,6 +15,7 @@ dof/facets/placed_facets.cpp at_once
 dof/footprints/interpolation_blur.cpp cocs n offsets
 dof/footprints/interpolation_blur.h largest_weight
 dof/gather_rows.cpp beside most rows_at_once
+dof/grain.cpp side
 dof/border_reach.cpp rows_at_once
 dof/lens/tile_plan.cpp blocks_in_run
 dof/lens/highlights.h cell octaves

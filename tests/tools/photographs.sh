@@ -28,7 +28,7 @@ while read -r scene near far; do
         oiiotool -i:type=float "$scene/photo.jpg" -d float --colorconvert sRGB linear "$scene/z.exr" --chappend --chnames R,G,B,Z -o "$scene/exact.exr"
         exits 0 "$bin/dof-gather" "$scene/exact.exr" -o "$scene/exact.png" --focal-length 36 --sensor-width 36 --depth z \
             --lens-radius "$(awk "BEGIN { print $blur / 320 }")" --focus-distance "$focus"
-        exits 0 "$bin/dof-gather" "$scene/photo.jpg" --depth-file "$scene/depth$bits.png" --disparity --blur "$blur" \
+        exits 0 "$bin/dof-gather" "$scene/photo.jpg" --depth-file "$scene/depth$bits.png" --disparity --blur "$blur" --grain 0 \
             --focus-distance "$focus" -o "$scene/out$bits.png"
         silent "$scene, $bits bits"
         within "$(psnr "$scene/out$bits.png" "$scene/truth.png")" "$(psnr "$scene/exact.png" "$scene/truth.png")" $least "$scene, $bits bits"
@@ -43,19 +43,21 @@ END
 # Colours of integers are decoded, floating-point ones are linear; depths that do not lie from 0 to 1 are scaled. So the same
 # picture comes from any of these files.
 cd plate
-photo=("$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 6 --focus-pixel 160,120)
+photo=("$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 6 --grain 0 --focus-pixel 160,120)
 exits 0 "${photo[@]}" -o out.exr
 oiiotool -i:type=float photo.jpg -d float --colorconvert sRGB linear -o linear.tif
 oiiotool linear.tif -o linear.exr
 oiiotool -i:type=float exact16.png --mulc 3 --subc 1 --chnames Y -d float -o depth.exr # scaled to 0 to 1 by its own range
 for words in "linear.tif --depth-file exact16.png" "linear.exr --depth-file exact16.png" "linear.exr --depth-file depth.exr --disparity"; do
     # shellcheck disable=SC2086
-    exits 0 "$bin/dof-gather" $words --blur 6 --focus-pixel 160,120 -o same.exr
+    exits 0 "$bin/dof-gather" $words --blur 6 --grain 0 --focus-pixel 160,120 -o same.exr
     [[ "$words" = *depth.exr* ]] || silent "$words"
     within "$(psnr same.exr out.exr)" 55 0 "$words" # edges are found in the colours of the file
 done
 grep -q 'its depth goes from -1 to .*, and is scaled to 0 to 1' stderr || fail "depth.exr is scaled in silence: $(cat stderr)"
 picture differ out.exr linear.exr R,G,B 0.05 || fail "nothing is blurred"
+exits 0 "$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 6 --focus-pixel 160,120 -o grain.exr
+picture differ grain.exr out.exr R,G,B 0.001 || fail "there is no grain"
 exits 0 "$bin/dof-gather" photo.jpg --depth-file exact16.png --blur 0 --focus-pixel 160,120 -o sharp.png
 oiiotool --fail 0.005 photo.jpg sharp.png --diff >stdout || fail "sharp colours do not come back: $(cat stdout)"
 
@@ -64,7 +66,7 @@ oiiotool exact8.png --resize:filter=box 80x45 -d uint8 -o quarter.png
 oiiotool quarter.png --resize 320x180 -d uint16 -o enlarged.png
 exits 0 "${photo[@]}" -o out.png
 for depth in quarter enlarged; do
-    exits 0 "$bin/dof-gather" photo.jpg --depth-file $depth.png --blur 6 --focus-pixel 160,120 -o by-$depth.png
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file $depth.png --blur 6 --grain 0 --focus-pixel 160,120 -o by-$depth.png
     silent $depth
 done
 within "$(psnr by-quarter.png out.png)" "$(psnr by-enlarged.png out.png)" -0.5 "a depth of a quarter"
@@ -101,6 +103,7 @@ for lens in --fstop --lens-radius --focal-length --sensor-width; do
     wrong 2 "--blur excludes $lens|$lens excludes --blur" --depth-file depth8.png --blur 6 "$lens" 2 "${sharp[@]}"
 done
 fails_saying 2 '--blur: is for depths that are a disparity' "$bin/dof-gather" center.exr --blur 6 -o x.png
+fails_saying 2 '--grain: is for photographs' "$bin/dof-gather" center.exr --grain 1 -o x.png
 exits 0 "$bin/dof-gather" photo.jpg -o x.png --depth-file inverted.png --blur 6 "${sharp[@]}"
 grep -q 'its depth is darker below than above.*--invert' stderr || fail "inverted: $(cat stderr)"
 
@@ -125,9 +128,9 @@ own() { python3 -B "$source_dir/tests/equal/own_depth.py" "$@" || fail "own_dept
 for kind in gdepth elements dynamic apple; do
     depth=black.png && [ $kind = apple ] && depth=depth.jpg
     own $kind photo.jpg $depth own-$kind.jpg
-    exits 0 "$bin/dof-gather" own-$kind.jpg -o own.png
+    exits 0 "$bin/dof-gather" own-$kind.jpg --grain 0 -o own.png
     [ "$(wc -l <stderr)" = 1 ] || fail "$kind: $(cat stderr)"
-    exits 0 "$bin/dof-gather" photo.jpg --depth-file "${depth/black.png/depth16.png}" -o same.png
+    exits 0 "$bin/dof-gather" photo.jpg --depth-file "${depth/black.png/depth16.png}" --grain 0 -o same.png
     cmp -s own.png same.png || fail "$kind: another picture than with the same depth in a file"
     exits 0 "$bin/dof-gather" own-$kind.jpg --depth-file inverted.png --blur 6 "${sharp[@]}" -o own.exr
     exits 0 "$bin/dof-gather" photo.jpg --depth-file inverted.png --blur 6 "${sharp[@]}" -o same.exr
@@ -176,7 +179,7 @@ exits 0 "$bin/dof-gather" shot.####.jpg --depth-file d.####.png --frames 1-3 --b
 for frame in 1 2 3; do
     oiiotool -i:type=float exact16.png --mulc 6 --addc 2 --fill:color=$((8 * frame)) 41x41+20+100 --chnames Y -d float -o y.000$frame.exr
 done
-exits 0 "$bin/dof-gather" shot.####.jpg --depth-file y.####.exr --disparity --frames 1-3 --blur 6 "${sharp[@]}" -o y.####.png
+exits 0 "$bin/dof-gather" shot.####.jpg --depth-file y.####.exr --disparity --frames 1-3 --blur 6 --grain 0 "${sharp[@]}" -o y.####.png
 grep -q flickers stderr && fail "steady disparities flicker: $(cat stderr)"
 for frame in 1 3; do oiiotool y.000$frame.png --cut 100x60+220+20 -o part$frame.png; done
 oiiotool --fail 0 part1.png part3.png --diff >stdout || fail "what stands still changes: $(cat stdout)"
@@ -193,4 +196,4 @@ with served(*sys.argv[3:]) as server:
         "$source_dir/tests/viewing" "$@" || fail "dof-view: $(cat stderr)"
 }
 blurs 6.4 "$bin/dof-view" plate/own-gdepth.jpg
-blurs 5 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png --disparity --blur 5 --focus-pixel 160,120 || fail "--blur"
+blurs 5 "$bin/dof-view" plate/photo.jpg --depth-file plate/depth8.png --disparity --blur 5 --grain 0 --focus-pixel 160,120 || fail "--blur"
