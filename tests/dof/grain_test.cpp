@@ -114,7 +114,7 @@ TEST(Grain, LeavesWhatIsInFocusAndOtherChannels) {
 
 // Renders, and what has no noise that shows: flat parts between texture, and light that is rounded to 8 bits.
 TEST(Grain, IsNothingWithoutNoise) {
-    const OpenedLdi faint = photograph({.constant = 2e-7}), seen = photograph({.constant = 2e-6});
+    const OpenedLdi faint = photograph({.constant = 2e-7}), seen = photograph({.constant = 1e-5});
     EXPECT_EQ(taken(faint, 6).values, taken(faint, 6, 0).values);
     EXPECT_NE(taken(seen, 6).values, taken(seen, 6, 0).values);
     OpenedLdi in = photograph({.texture = 0.1});
