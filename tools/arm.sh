@@ -20,7 +20,7 @@ mkdir -p "$build" "$out" "$root"
 out=$(cd "$out" && pwd) root=$(cd "$root" && pwd)
 say() { echo "arm.sh: $* (after $SECONDS s)"; }
 
-"$here/tools/install-deps.sh" arm gpu
+"$here/tools/install-deps.sh" arm gpu python
 # The kernel starts programs of arm64 by qemu, also those in ROOT.
 rules=/proc/sys/fs/binfmt_misc
 [ -e $rules/register ] || mount -t binfmt_misc none $rules || fail "binfmt_misc cannot be mounted"
@@ -33,12 +33,15 @@ inside() { # COMMAND...: in ROOT, which has the sources at their own path
     unshare --mount bash -c 'mkdir -p "$0$1" "$0$2" && mount --bind "$1" "$0$1" && mount --bind "$2" "$0$2" &&
         mount -t proc proc "$0/proc" && exec chroot "$0" env -C "$1" LC_ALL=C "${@:3}"' "$root" "$here" "$out" "$@"
 }
-inside tools/install-deps.sh build bundle gpu
+inside tools/install-deps.sh build bundle gpu python
 
 say "the build"
+python=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 export QEMU_LD_PREFIX=$root # what the build runs finds the libraries of ROOT
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Arm64.cmake" -DSPARSELENS_SYSROOT="$root" \
-    -DSPARSELENS_BENCHMARKS=OFF -DSPARSELENS_TESTS=OFF -DSPARSELENS_PYTHON=OFF --log-level=WARNING
+    -DSPARSELENS_{BENCHMARKS,TESTS}=OFF -DSPARSELENS_PYTHON{=ON,_DIR=.} -DPython_EXECUTABLE=/usr/bin/python3 \
+    -DPython_INCLUDE_DIR="$root/usr/include/python$python" -DPYBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3 \
+    -DPYTHON_MODULE_EXTENSION=".cpython-${python/./}-aarch64-linux-gnu.so" --log-level=WARNING
 cmake --build "$build" -j "$(nproc)"
 
 say "the archive"

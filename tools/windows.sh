@@ -20,7 +20,7 @@ out=$(cd "$out" && pwd) root=$(cd "$root" && pwd)
 say() { echo "windows.sh: $* (after $SECONDS s)"; }
 logged() { "$@" >"$build/log" 2>&1 </dev/null || fail "$* ($(tail -n 20 "$build/log"))"; }
 
-"$here/tools/install-deps.sh" build windows
+"$here/tools/install-deps.sh" build python windows
 
 say "the libraries"
 mingw=/usr/x86_64-w64-mingw32
@@ -61,7 +61,7 @@ if unpacked $newlib n/newlib/newlib_3.3.0.orig.tar.gz; then
     touch "$folder/$newlib"
 fi
 # The module for Python needs its headers, and the names in its DLL, which are those of Debian's.
-python=$(python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])') dll=python${python/./}
+python=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])') dll=python${python/./}
 headers=2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849
 if unpacked $headers p/python3.11/python3.11_3.11.2.orig.tar.gz; then
     cp -r "$folder/Include" "$root/include/python$python"

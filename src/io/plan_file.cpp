@@ -42,8 +42,9 @@ std::string write_mask(const std::string &plan_path, const std::string &folder, 
     std::ranges::copy(mask.set, image.plane(0).begin());
     const fs::path file = fs::path(folder) / (name + ".exr");
     write_flat_exr(file.string(), image, {});
-    return plan_path == "-" ? file.string()
-                            : file.lexically_proximate(fs::path(plan_path).parent_path()).string();
+    const fs::path named =
+        plan_path == "-" ? file : file.lexically_proximate(fs::path(plan_path).parent_path());
+    return named.generic_string(); // other systems read the plan, too
 }
 
 Json json_of(const PlannedView &view, const std::string &name, const ThinLens &lens) {
