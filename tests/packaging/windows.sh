@@ -1,5 +1,6 @@
 # The archive for Windows, by wine with a new prefix: the README's sixty seconds, names with spaces and letters beyond ASCII,
-# long names, replaced files, binary pipes, dof-view's answers, damaged files, the wheel.
+# long names, replaced files, binary pipes, a full disk, Ctrl-C, dof-view's answers, damaged files, the wheel, and the scripts
+# of tests/tools that need nothing of POSIX and no method of the laboratory.
 #   bash windows.sh BIN_DIR ARCHIVE [FOLDER [WHEEL PYTHON]]     FOLDER: fifty damaged EXR files or more; WHEEL: the one for
 #                                                               Windows; PYTHON: the folder of its Python
 . "$(dirname "$0")/../tools/check.sh"
@@ -39,6 +40,33 @@ cp here/fence.ldi.exr "$far/ldi.exr"
 fails_saying 2 'would overwrite the input' "$there/dof-gather" "$far/ldi.exr" -o "$far/../${far##*/}/ldi.exr"
 [ "$(find "$far" -type f | wc -l)" -eq 2 ] || fail "temporary files are left: $(ls -a "$far")"
 
+# A full disk, and Ctrl-C in a terminal: what was there is left as it was.
+if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
+    trap 'umount "$scratch/full"; rm -rf "$scratch"' EXIT
+    echo old >full/x.exr
+    fails_saying 1 'full/x.exr: .*No space left' "$there/dof-gather" views/ldi.exr --lens-radius 0.02 -d float -o full/x.exr
+    [ "$(cat full/x.exr)" = old ] && [ "$(ls -A full)" = x.exr ] || fail "a full disk: $(ls -lA full)"
+fi
+mkdir stopped
+echo old >stopped/x.exr
+cat >press.py <<'PYTHON'
+import os, pty, sys, time
+
+process, terminal = pty.fork()
+if process == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+time.sleep(4)
+os.write(terminal, b"\x03")
+try:
+    while os.read(terminal, 4096):
+        pass
+except OSError:
+    pass # it has ended
+assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) != 0
+PYTHON
+exits 0 python3 press.py "$there/dof-gather" views/ldi.exr --lens-radius 0.1 --lens-samples 200000 -o stopped/x.exr
+[ "$(cat stopped/x.exr)" = old ] && [ "$(ls -A stopped)" = x.exr ] || fail "Ctrl-C: $(ls -lA stopped)"
+
 # dof-view answers its page, and refuses what it does not know.
 traced fence 96x54 small
 exits 0 python3 "$source_dir/tests/viewing/protocol.py" "$there" views/ldi.exr views/reference.exr small/ldi.exr
@@ -53,6 +81,14 @@ for file in ${3+"$3"/*}; do
     files=$((files + 1))
 done
 [ $# -eq 2 ] || [ $files -ge 50 ] || fail "$3 has only $files files"
+
+# Where other programs are needed, they are this machine's.
+for file in "$bin"/*; do [ -e "$there/${file##*/}" ] || ln -s "$file" "$there/"; done
+for script in bad-pixels compression deep-views denoised depth dof-compare dof-finish hostile layers ldi-plan leave-out looks mistakes openexr \
+    photographs pictures recolor stats subpixels supersample; do
+    exits 0 bash "$source_dir/tests/tools/$script.sh" "$there"
+    echo "$script: passed"
+done
 
 # The module and the tools of the wheel make the same pictures.
 if [ $# -eq 5 ]; then
