@@ -97,7 +97,7 @@ grep -rl '#.*include <windows.h>' "$root/include" |
 
 say "the build"
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Mingw.cmake" -DSPARSELENS_SYSROOT="$root" -DHELP2MAN=OFF \
-    -DSPARSELENS_{BENCHMARKS,TESTS,LAB,GPU,BUNDLE}=OFF -DSPARSELENS_PYTHON{=ON,_DIR=.} -DPython_EXECUTABLE=/usr/bin/python3 \
+    -DSPARSELENS_{BENCHMARKS,TESTS,LAB,GPU,BUNDLE}=OFF -DSPARSELENS_PYTHON{=ON,_DIR:STRING=.} -DPython_EXECUTABLE=/usr/bin/python3 \
     -DPython_INCLUDE_DIR="$root/include/python$python" -DPython_LIBRARY="$root/lib/lib$dll.dll.a" \
     -DP{YTHON_MODULE_EXTENSION=.cp${python/./}-win_amd64.pyd,YBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3} --log-level=WARNING
 cmake --build "$build" -j "$(nproc)"
