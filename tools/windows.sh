@@ -24,10 +24,10 @@ logged() { "$@" >"$build/log" 2>&1 </dev/null || fail "$* ($(tail -n 20 "$build/
 
 say "the libraries"
 mingw=/usr/x86_64-w64-mingw32
-cp -r /usr/include/{CLI,nlohmann,pybind11} $mingw/include/z{lib,conf}.h "$root/include/"
+cp -ru /usr/include/{CLI,nlohmann,pybind11} $mingw/include/z{lib,conf}.h "$root/include/"
 ln -sfn /usr/include/boost "$root/include/boost"
-cp -r /usr/share/cmake/{CLI11,nlohmann_json} /usr/lib/cmake/pybind11 "$root/share/cmake/"
-cp $mingw/lib/libz.a "$root/lib/"
+cp -ru /usr/share/cmake/{CLI11,nlohmann_json} /usr/lib/cmake/pybind11 "$root/share/cmake/"
+cp -u $mingw/lib/libz.a "$root/lib/"
 sed "s,$mingw,$root," $mingw/lib/pkgconfig/zlib.pc >"$root/lib/pkgconfig/zlib.pc"
 unpacked() { # SHA256 SOURCE: Debian's source, in $folder; false if it is built already
     folder=$root/sources/$(basename "${2%%_*}")
@@ -92,8 +92,9 @@ library 516420206151e76b5515f5ae7e976c97a9920b13dbfb50ceada1dc4bd67116de o/openc
 # OpenColorIO tells only Linux what it needs. Names of ours are macros in windows.h, which oneTBB includes.
 printf '%s\n' 'Name: OpenColorIO' 'Description: colours' 'Version: 2.1.3' "Cflags: -I$root/include" \
     "Libs: -L$root/lib -lOpenColorIO -lyaml-cpp -lpystring -lexpat -lImath-3_1" >"$root/lib/pkgconfig/OpenColorIO.pc"
-grep -rl '#.*include <windows.h>' "$root/include" |
-    xargs -d '\n' sed -i -e '/^#undef \(near\|far\)$/d' -e '/#.*include <windows.h>/a #undef near\n#undef far'
+grep -rl '#.*include <windows.h>' "$root/include" | while read -r file; do
+    grep -q '^#undef near' "$file" || sed -i '/#.*include <windows.h>/a #undef near\n#undef far' "$file"
+done
 
 say "the build"
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Mingw.cmake" -DSPARSELENS_SYSROOT="$root" -DHELP2MAN=OFF \
