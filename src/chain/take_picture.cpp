@@ -175,7 +175,8 @@ private:
         const int bits = extras_of(in_.header).value_or(ShownExtras{.bits = 0}).bits;
         const Grain grain = strength > 0 && blurs && lens_.radius > 0 ? measure_grain(ldi(), bits) : Grain();
         if (grain.none()) return gathered();
-        if (!frame_.changed) frame_.changed = own_ ? std::move(*own_) : in_.ldi;
+        if (!frame_.changed && own_) frame_.changed = std::move(*own_); // `own_ ? move : in_.ldi` would copy
+        if (!frame_.changed) frame_.changed = in_.ldi;
         add_kept_share(*frame_.changed, lens_);
         Image picture = gathered();
         add_grain(grain, float(strength), std::uint32_t(work_.frame), out_.tiles, frame_.gathered, picture);

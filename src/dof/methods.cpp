@@ -28,7 +28,8 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
         return lens_gather(one, lens, window, by, progress);
     };
     const auto gather_one = [&]<typename AnyLdi>(AnyLdi &&one) {
-        if (tolerance == 0) return gather_beyond(std::forward<AnyLdi>(one), lens, window, options, gather);
+        if (tolerance == 0 || !can_merge_layers(one))
+            return gather_beyond(std::forward<AnyLdi>(one), lens, window, options, gather);
         const double scale = disparity_scale(lens.radius, lens.focal_px);
         return gather_beyond(merge_layers(std::forward<AnyLdi>(one), scale, tolerance), lens, window, options,
                              gather);
