@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace sparselens {
@@ -223,6 +224,54 @@ private:
     PositionBox part_;
 };
 
+// Light groups are layers that add up to the beauty. For each of its colours: their channels, then that of the beauty.
+// Their names are alike up to the last _.
+std::vector<std::vector<std::size_t>> light_groups(const PictureToFinish &picture,
+                                                   const std::vector<std::size_t> &beauty) {
+    const Image &gathered = picture.gathered;
+    std::map<std::string, std::vector<std::size_t>> alike;
+    for (const std::vector<std::size_t> &layer : colour_layers(gathered.channels))
+        for (const std::size_t c : layer) {
+            const std::string &name = gathered.channels[c].name;
+            if (const std::size_t dot = name.rfind('.'); dot != npos && picture.rays.has(c))
+                alike[name.substr(0, name.rfind('_', dot) + 1) + name.substr(dot)].push_back(c);
+        }
+    std::vector<std::vector<std::size_t>> found;
+    for (auto &[name, group] : alike)
+        for (const std::size_t c : beauty) {
+            if (colour_part(gathered.channels[c]) != colour_part(gathered.channels[group[0]])) continue;
+            double apart = 0, all = 0;
+            for (std::size_t i = 0; i < gathered.plane(c).size(); ++i) {
+                double lacks = double(gathered.plane(c)[i]);
+                all += std::abs(lacks);
+                for (const std::size_t of : group) lacks -= double(gathered.plane(of)[i]);
+                apart += std::abs(lacks);
+            }
+            if (!(apart <= FinishTuning::groups_apart * all)) continue;
+            group.push_back(c);
+            found.push_back(group);
+            break;
+        }
+    return found;
+}
+
+// Gives light groups what they lack of the beauty, by how much light each has.
+void add_up(Image &picture, const std::vector<std::size_t> &group) {
+    const std::span<const std::size_t> layers(group.data(), group.size() - 1);
+    for (std::size_t i = 0; i < picture.plane(group.back()).size(); ++i) {
+        float lacks = picture.plane(group.back())[i], light = 0;
+        for (const std::size_t c : layers) {
+            lacks -= picture.plane(c)[i];
+            light += std::abs(picture.plane(c)[i]);
+        }
+        if (!is_usable(lacks)) continue;
+        for (const std::size_t c : layers) {
+            float &v = picture.plane(c)[i];
+            v += light > 0 ? lacks * (std::abs(v) / light) : lacks / float(layers.size());
+        }
+    }
+}
+
 } // namespace
 
 TwoHalves::TwoHalves(const Image &gathered)
@@ -380,6 +429,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
     if (!all_found(colours) ||
         !std::ranges::all_of(colours, [&](std::size_t c) { return picture.rays.has(c); }))
         throw Error("the gathered picture and the renders have no R, G and B in common");
+    const auto groups = light_groups(picture, {colours.begin(), colours.end()});
     for (const std::vector<std::size_t> &channels : colour_layers(picture.gathered.channels)) {
         if (!std::ranges::all_of(channels, [&](std::size_t c) { return picture.rays.has(c); })) {
             for (const std::size_t c : channels)
@@ -416,6 +466,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
                                    });
         }
     }
+    for (const std::vector<std::size_t> &group : groups) add_up(picture.gathered, group);
     finished.image = std::move(picture.gathered);
     return finished;
 }

@@ -1,5 +1,6 @@
 // Finishes whole pictures by finish_layer(): R, G and B of the beauty and of each layer together, alpha and every other
-// light channel alone. Depth, data, ids and Cryptomattes stay as gathered.
+// light channel alone. Light groups, which add up to the beauty, still do. Depth, data, ids and Cryptomattes stay as
+// gathered.
 #pragma once
 
 #include "base/image.h"

@@ -110,6 +110,9 @@ struct FinishTuning {
     // power and its inverse.
     static constexpr float log_of_movement = 14;
 
+    // Layers add up to the beauty if they differ from it by this share of its light, which half floats round by 2.5e-4.
+    static constexpr double groups_apart = 2e-3;
+
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;
     // Side of the blocks that ask for rays, pixels; into how many rectangles a picture is cut at most; and the share of

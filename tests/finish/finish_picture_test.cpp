@@ -353,6 +353,54 @@ TEST(FinishPicture, LayersAreFinishedAndDataAndIdsStay) {
     for (const float id : result.image.plane(8)) ASSERT_EQ(std::bit_cast<std::uint32_t>(id), 77u);
 }
 
+// Layers that add up to the beauty still do, and what is black in one of them stays black; others are left alone.
+TEST(FinishPicture, LightGroupsAddUp) {
+    const auto layered = [](const Colours &colours, float fill) {
+        std::vector<Channel> channels = rgba_channels();
+        for (const std::string layer : {"Combined_key.", "Combined_fill.", "gloss."})
+            for (const char *colour : {"B", "G", "R"}) channels.push_back({layer + colour});
+        Image image = picture_of(colours);
+        Image all(windows, channels);
+        for (std::size_t c = 0; c < 4; ++c) std::ranges::copy(image.plane(c), all.plane(c).begin());
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < grid.size(); ++i) {
+                const float v = all.plane(2 - c)[i], part = grid.position(i).column < 24 ? 0 : fill;
+                all.plane(4 + c)[i] = (1 - part) * v;
+                all.plane(7 + c)[i] = part * v;
+                all.plane(10 + c)[i] = 0.5f * v;
+            }
+        return all;
+    };
+    const auto rays = [&](std::uint32_t seed) {
+        return Render{"rays.exr", layered(rays_of(truth, 16, seed), seed == 1 ? 0.3f : 0.5f), 16};
+    };
+    const auto most_apart = [&](const FinishedPicture &picture) {
+        float apart = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < grid.size(); ++i) {
+                const float key = picture.image.plane(4 + c)[i], fill = picture.image.plane(7 + c)[i],
+                            sum = picture.image.plane(2 - c)[i];
+                apart = std::max(apart, std::abs(key + fill - sum) / (1 + std::abs(sum)));
+            }
+        return apart;
+    };
+    const Colours gathered = blurred(truth, grid, 2);
+    const FinishedPicture together = finished(layered(gathered, 0.4f), {rays(1), rays(2)});
+    EXPECT_LT(most_apart(together), 1e-5f);
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        if (grid.position(i).column < 8) {
+            ASSERT_NEAR(together.image.plane(7)[i], 0, 1e-6f);
+        }
+    // Some of the blue light is in no group.
+    Image less = layered(gathered, 0.4f);
+    for (float &v : less.plane(7)) v *= 0.97f;
+    for (float &v : less.plane(4)) v *= 0.97f;
+    const FinishedPicture alone = finished(less, {rays(1), rays(2)});
+    EXPECT_GT(most_apart(alone), 1e-3f);
+    for (std::size_t c = 10; c < 13; ++c)
+        EXPECT_TRUE(std::ranges::equal(together.image.plane(c), alone.image.plane(c)));
+}
+
 TEST(FinishPicture, NamesTheLayersThatTheRendersLack) {
     const std::vector<Channel> channels{{"R"}, {"G"}, {"B"}, {"A"}, {"key.R"}, {"key.G"}, {"key.B"}};
     const Image gathered = picture_of(truth, channels);
