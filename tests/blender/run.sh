@@ -3,7 +3,8 @@
 #   bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]      480x270, 96, 24, 16
 # script.sh: the renders of the script; apart.sh: smoke in slices and see-through layers; pictures.sh: its pictures, and
 # the add-on's; manners.sh: those of views rendered in other manners; shots.sh: ../shared/shots; window.sh: the add-on in
-# a window; extension.sh: the add-on, installed; mistakes.sh: common mistakes; denoised.sh: denoised views;
+# a window; extension.sh: the add-on, installed; border.sh: renders of a border for dof-finish; mistakes.sh: common
+# mistakes; denoised.sh: denoised views;
 # animation.sh: animated cameras compared with Cycles' own lens; picture.sh: compared with Blender's Defocus node;
 # usd.sh: views of the cameras of a layer of USD. The figures of lab/results/blender.md: 480x270 512 256 64, which takes
 # hours.
@@ -19,6 +20,7 @@ bash "$here/apart.sh" "$bin"
 bash "$here/shutter.sh" "$bin"
 bash "$here/window.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/extension.sh" "$bin"
+bash "$here/border.sh" "$bin"
 bash "$here/mistakes.sh" "$bin"
 bash "$here/denoised.sh" "$bin" || [ $? -eq 77 ]
 bash "$here/usd.sh" "$bin" || [ $? -eq 77 ]

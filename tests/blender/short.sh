@@ -8,7 +8,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=${1:?usage: bash short.sh BIN_DIR [TEST...]}
 shift
-[ $# -gt 0 ] || set -- pictures script shutter bpy.denoised extension bpy.extension mistakes apart manners window # the longest first
+[ $# -gt 0 ] || set -- pictures script shutter bpy.denoised extension bpy.extension mistakes apart manners window border bpy.border # the longest first
 logs=$(mktemp -d)
 trap 'rm -r "$logs"' EXIT
 run_one() { # NAME

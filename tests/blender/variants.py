@@ -7,6 +7,8 @@
     blender -b SCENE.blend -P variants.py -- render SAMPLES FIRST LAST OUT.####.exr
         the frames as Blender itself renders them; with several eyes OUT.####_L.exr and OUT.####_R.exr; `render_depth`
         writes depth, too, which takes a multilayer file since Blender 4.0
+    blender -b SCENE.blend -P variants.py -- border SAMPLES FRAME X,Y,WIDTH,HEIGHT FOLDER
+        two renders of Blender's border, y down: black_K.####.exr, and with Crop crop_K.####.exr
 """
 
 import math
@@ -378,6 +380,20 @@ def render(scene, depth, samples, first, last, path):
         bpy.ops.render.render(write_still=True)
 
 
+def border(scene, samples, frame, box, folder):
+    made = scene.render
+    x, y, width, height = [int(number) for number in box.split(",")]
+    made.use_border = True
+    made.border_min_x, made.border_max_x = (x + 0.25) / made.resolution_x, (x + width + 0.25) / made.resolution_x
+    bottom = made.resolution_y - y - height
+    made.border_min_y, made.border_max_y = (bottom + 0.25) / made.resolution_y, (bottom + height + 0.25) / made.resolution_y
+    for kind in "black", "crop":
+        made.use_crop_to_border = kind == "crop"
+        for half in 1, 2:
+            scene.cycles.seed = 100 + half
+            render(scene, False, int(samples), int(frame), int(frame), os.path.join(folder, "%s_%d.####.exr" % (kind, half)))
+
+
 def save(kinds, path):
     scene = bpy.context.scene
     for kind in kinds.split(","):
@@ -389,6 +405,8 @@ def main(action, *rest):
     scene = bpy.context.scene
     if action in ("render", "render_depth"):
         return render(scene, action == "render_depth", *[int(number) for number in rest[:3]], rest[3])
+    if action == "border":
+        return border(scene, *rest)
     if action != "each":
         return save(action, rest[0])
     base = bpy.data.filepath
