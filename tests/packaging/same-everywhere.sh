@@ -38,21 +38,23 @@ for scene in $scenes; do
     rm here.*
 done
 
-# The pictures of the demo. Its scene is traced here.
+# The pictures of the demo. Its scene is traced here. oiiotool writes the names of folders into pictures.
 demo() { # DIR FOLDER
-    mkdir "$2" "$2/bin"
-    for tool in dof-compare dof-gather ldi-cluster ldi-warp; do ln -s "$1/$tool" "$2/bin/"; done
-    ln -s "$bin/dof-trace" "$2/bin/"
-    exits 0 "$source_dir/tools/demo.sh" --bin "$2/bin" --size 320x180 --spp 4 --reference 16 -o "$2/demo"
+    mkdir tools
+    for tool in dof-compare dof-gather ldi-cluster ldi-warp; do ln -s "$1/$tool" tools/; done
+    ln -s "$bin/dof-trace" tools/
+    exits 0 "$source_dir/tools/demo.sh" --bin "$PWD/tools" --size 320x180 --spp 4 --reference 16 -o "$PWD/demo"
+    rm -r tools
+    mv demo "$2"
 }
 demo "$bin" demo-here
 for archive in "${@:2}"; do
     demo "$(folder_of "$archive")/bin" demo-there
     same=0
     while read -r file; do
-        cmp "demo-here/demo/$file" "demo-there/demo/$file" || fail "the demo: $file differs in ${archive##*/}"
+        cmp "demo-here/$file" "demo-there/$file" || fail "the demo: $file differs in ${archive##*/}"
         same=$((same + 1))
-    done < <(cd demo-here/demo && find . -name '*.exr' -o -name '*.png')
+    done < <(cd demo-here && find . -name '*.exr' -o -name '*.png')
     [ $same -ge 15 ] || fail "the demo made only $same pictures"
     echo "the demo: $same pictures are the same in ${archive##*/}"
     rm -r demo-there
