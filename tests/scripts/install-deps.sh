@@ -20,7 +20,7 @@ for base in cat env grep mktemp rm sed sh sort tail; do ln -s "$(command -v $bas
 run() { PATH=$scratch/bin "$script" "$@" >output 2>&1; }
 one_line() { [ "$(wc -l <output)" -eq 1 ]; }
 installed='g++ ninja-build pkg-config libboost-dev libcli11-dev libembree-dev libfmt-dev libimath-dev libjpeg-dev
-           libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev'
+           libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libtbb-dev nlohmann-json3-dev openimageio-tools'
 stand_in id 'echo 0'
 stand_in apt-get 'echo "$@" >>calls; case "$*" in *" update"*) exit ${UPDATE_EXIT-0} ;; esac
 if [ ${INSTALL_EXIT-0} -ne 0 ]; then echo "E: Unable to locate package cmake" >&2; exit $INSTALL_EXIT; fi'
