@@ -101,10 +101,10 @@ import sparselens
 ldi = sparselens.open_ldi("here/fence.ldi.exr")
 sparselens.write("module.exr", sparselens.gather(ldi))
 sparselens.write("module.png", sparselens.gather(ldi, focus_distance=2.2))
-with sparselens.view(ldi) as server:
-    assert server.address.startswith("http://127.0.0.1:"), server
 PYTHON
-    PATH=$PWD/packages/Scripts:$PATH PYTHONPATH=packages exits 0 wine "$5/python.exe" use.py
+    # By pipes: Python in wine refuses files as its streams.
+    PATH=$PWD/packages/bin:$PATH PYTHONPATH=packages wine "$5/python.exe" use.py </dev/null 2>&1 | cat >said ||
+        fail "the module of the wheel: $(tail -n 3 said)"
     cmp module.exr here/as-rendered.exr || fail "the module makes another picture"
     idiff -q module.png here/focus-on-the-fence.png >stdout || fail "the module makes another PNG"
 fi
