@@ -39,7 +39,7 @@ say "the build"
 python=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 export QEMU_LD_PREFIX=$root # what the build runs finds the libraries of ROOT
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Arm64.cmake" -DSPARSELENS_SYSROOT="$root" \
-    -DSPARSELENS_{BENCHMARKS,TESTS}=OFF -DSPARSELENS_PYTHON{=ON,_DIR:STRING=.} -DPython_EXECUTABLE=/usr/bin/python3 \
+    -DSPARSELENS_{BENCHMARKS,TESTS}=OFF -DSPARSELENS_PYTHON=ON -DSPARSELENS_PYTHON_DIR:STRING=. -DPython_EXECUTABLE=/usr/bin/python3 \
     -DPython_INCLUDE_DIR="$root/usr/include/python$python" -DPYBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3 \
     -DPYTHON_MODULE_EXTENSION=".cpython-${python/./}-aarch64-linux-gnu.so" --log-level=WARNING
 cmake --build "$build" -j "$(nproc)"

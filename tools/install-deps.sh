@@ -20,9 +20,9 @@ lint='clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev'
 report='chromium chromium-driver python3-matplotlib python3-numpy python3-openimageio'
 windows='curl g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64'
 python='pybind11-dev python3-dev'
-test='dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
-      munge mypy nodejs openexr pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
-      python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time'
+test="dpkg-dev fakeroot file groff-base help2man libbenchmark-dev libgtest-dev lintian
+      munge mypy nodejs openexr $python python3-jsonschema python3-matplotlib python3-numpy python3-openimageio
+      python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time"
 # Differences between releases. The sources are formatted by clang-format 14, which only Debian 12 has; the extensions
 # of Blender 5 need modules that its package lacks; the packages for wheels are in Debian 13 and later.
 case $release in

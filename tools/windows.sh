@@ -98,9 +98,9 @@ done
 
 say "the build"
 cmake -S "$here" -B "$build" --preset release --toolchain "$here/cmake/Mingw.cmake" -DSPARSELENS_SYSROOT="$root" -DHELP2MAN=OFF \
-    -DSPARSELENS_{BENCHMARKS,TESTS,LAB,GPU,BUNDLE}=OFF -DSPARSELENS_PYTHON{=ON,_DIR:STRING=.} -DPython_EXECUTABLE=/usr/bin/python3 \
+    -DSPARSELENS_{BENCHMARKS,TESTS,LAB,GPU,BUNDLE}=OFF -DSPARSELENS_PYTHON=ON -DSPARSELENS_PYTHON_DIR:STRING=. -DPython_EXECUTABLE=/usr/bin/python3 \
     -DPython_INCLUDE_DIR="$root/include/python$python" -DPython_LIBRARY="$root/lib/lib$dll.dll.a" \
-    -DP{YTHON_MODULE_EXTENSION=.cp${python/./}-win_amd64.pyd,YBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3} --log-level=WARNING
+    -DPYTHON_MODULE_EXTENSION=".cp${python/./}-win_amd64.pyd" -DPYBIND11_PYTHON_EXECUTABLE_LAST=/usr/bin/python3 --log-level=WARNING
 cmake --build "$build" -j "$(nproc)"
 
 say "the archive"

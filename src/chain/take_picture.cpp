@@ -110,9 +110,9 @@ private:
         if (out_.lens.radius > 0)
             work_.notify({.kind = NoticeKind::used_lens,
                           .values = {out_.lens.radius, out_.lens.focal_px, out_.lens.focus}});
-        const PhotographBlur blur = request_.blur.value_or(PhotographBlur());
         if (request_.grain && in_.depth != DepthMeaning::disparity)
             throw UsageError("`grain`: is for photographs, whose depth is a disparity (`disparity`)");
+        const PhotographBlur blur = request_.blur.value_or(PhotographBlur());
         if (const double change = blur.in_pixels(in_.ldi.windows.display_width()) * in_.flicker;
             change > 0.5) // pixels: it is seen
             work_.notify({NoticeKind::flicker, in_.name, {change}});

@@ -1,5 +1,6 @@
 #include "dof/grain.h"
 
+#include "base/light.h"
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "dof/tuning.h"
@@ -42,9 +43,10 @@ std::optional<Block> measured(const Ldi &ldi, std::span<const std::size_t> chann
     return Block{float(sum / (side * side)), float(squares / (36 * side * side))};
 }
 
-// One of `steps` that sRGB has from 0 to 1, in linear light. Its slope is 1 / 12.92 in the dark.
+// The height of one of the `steps` that sRGB has from 0 to 1, in linear light.
 float step_of(float brightness, float steps) {
-    return std::max(2.28f * std::pow(std::max(brightness, 0.0f), 1 - 1 / 2.4f), 1 / 12.92f) / steps;
+    const double shown = srgb_encoded(double(brightness)), half = 0.5 / double(steps);
+    return float(srgb_decoded(shown + half) - srgb_decoded(shown - half));
 }
 
 float variance_of_rounding(float brightness, int bits) {

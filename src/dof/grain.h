@@ -34,13 +34,14 @@ struct Grain {
     float deviation(std::size_t channel, float brightness) const;
 };
 
-// That of the front samples, which are those of a file with so many bits of sRGB; 0: they are not rounded.
+// Measures the grain of the front samples. `bits`: of a value in the photograph's file, whose rounding is not grain; 0 for
+// floats.
 Grain measure_grain(const Ldi &photograph, int bits);
 
 // Adds the channel of what is kept to the LDI that is gathered.
 void add_kept_share(Ldi &photograph, const ThinLens &lens);
 
-// Takes this channel, the last one, from the picture, and adds `strength` times the grain in the `tiles` of `gathered` that
+// Removes this channel, the last one, from the picture, and adds `strength` times the grain in the `tiles` of `gathered` that
 // are out of focus. The noise follows from pixel and frame alone, and changes with the frame as that of a camera does: a
 // pattern that stays would look like dirt before a moving picture.
 void add_grain(const Grain &grain, float strength, std::uint32_t frame, const LensTiles &tiles,

@@ -1,8 +1,9 @@
 # The archive for Windows, by wine with a new prefix: the README's sixty seconds, names with spaces and letters beyond ASCII,
 # long names, replaced files, binary pipes, a full disk, Ctrl-C, dof-view's answers, damaged files, the wheel, and the scripts
 # of tests/tools that need nothing of POSIX and no method of the laboratory.
-#   bash windows.sh BIN_DIR ARCHIVE [FOLDER [WHEEL PYTHON]]     FOLDER: fifty damaged EXR files or more; WHEEL: the one for
-#                                                               Windows; PYTHON: the folder of its Python
+#   bash windows.sh BIN_DIR ARCHIVE [FOLDER [WHEEL PYTHON]]     all by their whole paths. FOLDER: fifty damaged EXR files or
+#                                                               more; WHEEL: the one for Windows; PYTHON: the folder of
+#                                                               its Python
 . "$(dirname "$0")/../tools/check.sh"
 . "$source_dir/tests/packaging/windows-programs.sh"
 [ $# -ge 2 ] || fail "name an archive of tools/windows.sh"
